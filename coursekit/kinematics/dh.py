@@ -1,0 +1,216 @@
+"""Denavit-Hartenberg tables, standard and modified: link transforms, screws, and each written as the other.
+
+The two conventions hold the same four numbers per joint axis and put the frames in different places:
+
+    standard   A_i = Rot_z(theta_i) Trans_z(d_i) Trans_x(a_i) Rot_x(alpha_i)            frame i on axis i + 1
+    modified   A_i = Rot_x(alpha_{i-1}) Trans_x(a_{i-1}) Trans_z(d_i) Rot_z(theta_i)    frame i on axis i
+
+A modified row i therefore holds the a and alpha of row i - 1 of the standard table: the two columns move one
+row down. Sources: Siciliano et al. (2010), eqs. 2.51-2.52; Lynch & Park (2017), appendix C.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import checks, lie
+
+CONVENTIONS = ("standard", "modified")
+_JOINTS = {"r": "revolute", "revolute": "revolute", "p": "prismatic", "prismatic": "prismatic"}
+
+TURN_ABOUT_Z = np.array(
+    [0.0, 0, 1, 0, 0, 0]
+)  # the twist of a revolute joint, in the frame whose z is its axis
+SLIDE_ALONG_Z = np.array([0.0, 0, 0, 0, 0, 1])  # the twist of a prismatic joint
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """A robot arm as a DH table. T(q) = base A_1(q_1) ... A_n(q_n) tool.
+
+    a, alpha, d, theta   (n,) each; metres and radians. For "modified", row i holds a_{i-1}, alpha_{i-1}, d_i,
+                         theta_i. For a revolute joint theta is the offset added to q, else d is.
+    convention           "standard" or "modified"
+    joint_types          n words "revolute" / "prismatic" (or letters "R" / "P"); all revolute where not given
+    base, tool           (4, 4) poses: frame 0 in the space frame, the tool in frame n
+
+    Raises ValueError for a missing column, columns of different length, an unknown convention or joint type,
+    or a base or tool that is not in SE(3).
+
+    >>> table = Table(a=[0.5, 0.25], alpha=[0, 0], d=[0, 0], theta=[0, 0])
+    >>> table.fk([0, np.pi / 2])[:2, 3].round(12).tolist()
+    [0.5, 0.25]
+    """
+
+    a: np.ndarray = None
+    alpha: np.ndarray = None
+    d: np.ndarray = None
+    theta: np.ndarray = None
+    convention: str = "standard"
+    joint_types: tuple = None
+    base: np.ndarray = None
+    tool: np.ndarray = None
+
+    def __post_init__(self):
+        columns = {name: getattr(self, name) for name in ("a", "alpha", "d", "theta")}
+        missing = [name for name, column in columns.items() if column is None]
+        if missing:
+            raise ValueError(
+                f"a DH table needs the columns a, alpha, d, theta; missing: {', '.join(missing)}"
+            )
+        columns = {name: checks.frozen(column, name) for name, column in columns.items()}
+        shapes = {name: column.shape for name, column in columns.items()}
+        if len(set(shapes.values())) > 1 or columns["a"].ndim != 1 or not columns["a"].size:
+            raise ValueError(
+                f"the columns of a DH table must have one number per joint each; got shapes {shapes}"
+            )
+        if self.convention not in CONVENTIONS:
+            raise ValueError(f"convention must be one of {CONVENTIONS}, got {self.convention!r}")
+        for name, column in columns.items():
+            object.__setattr__(self, name, column)
+        object.__setattr__(self, "joint_types", joint_types(self.joint_types, self.n))
+        for name in ("base", "tool"):
+            value = np.eye(4) if getattr(self, name) is None else checks.pose(getattr(self, name), name)
+            object.__setattr__(self, name, checks.frozen(value, name, (4, 4)))
+
+    @property
+    def n(self):
+        """Number of joints."""
+        return len(self.a)
+
+    def link_transforms(self, q):
+        """A_1 ... A_n. q (..., n) rad or m -> (..., n, 4, 4), pose of frame i in frame i - 1.
+
+        Standard: eq. 2.52 of Siciliano et al.; modified: appendix C of Lynch & Park.
+        """
+        q = checks.joint_angles(q, self.n, f"the {self.convention} DH table")
+        turns = np.array([kind == "revolute" for kind in self.joint_types])
+        theta = self.theta + np.where(turns, q, 0.0)
+        d = self.d + np.where(turns, 0.0, q)
+        along_z, along_x = _screw_z(theta, d), _screw_x(self.alpha, self.a)
+        return along_z @ along_x if self.convention == "standard" else along_x @ along_z
+
+    def fk(self, q):
+        """Tool pose in the space frame. q (..., n) -> T (..., 4, 4). Eq. 2.5 of the TPK4170 report."""
+        A = self.link_transforms(q)
+        T = self.base
+        for i in range(self.n):
+            T = T @ A[..., i, :, :]
+        return T @ self.tool
+
+    def frames(self, q):
+        """The DH frames themselves: base A_1 ... A_i. q (..., n) -> (..., n, 4, 4), in the space frame."""
+        A = self.link_transforms(q)
+        frames, T = np.empty_like(A), self.base
+        for i in range(self.n):
+            T = frames[..., i, :, :] = T @ A[..., i, :, :]
+        return frames
+
+    def screws(self):
+        """The same arm as a product of exponentials: S (6, n) with columns (omega; v), and M (4, 4).
+
+        With q split off each link transform, A_i(q) = M_i e^[A]q, the screws are
+        [S_i] = (M_1 .. M_i) [A] (M_1 .. M_i)^-1 (TPK4170 report, eq. 2.18; A is about or along z). A standard
+        frame i sits behind its joint, A_i(q) = e^[A]q M_i, so there the product ends at M_{i-1}.
+
+        >>> S, M = Table(a=[0.5, 0.25], alpha=[0, 0], d=[0, 0], theta=[0, 0]).screws()
+        >>> S[:, 1].tolist()
+        [0.0, 0.0, 1.0, 0.0, -0.5, 0.0]
+        """
+        frames = self.frames(np.zeros(self.n))
+        if self.convention == "standard":
+            frames = np.concatenate([self.base[None], frames[:-1]])
+        A = np.array([TURN_ABOUT_Z if kind == "revolute" else SLIDE_ALONG_Z for kind in self.joint_types])
+        S = (lie.adjoint(frames) @ A[..., None])[..., 0].T
+        return S, self.fk(np.zeros(self.n))
+
+    def to_modified(self):
+        """The modified table of the same arm: same joints, same base, same T(q).
+
+        a and alpha move one row down; those of the last row move into the tool.
+        """
+        if self.convention == "modified":
+            return self
+        tool = _screw_x(self.alpha[-1], self.a[-1]) @ self.tool
+        a, alpha = np.append(0.0, self.a[:-1]), np.append(0.0, self.alpha[:-1])
+        return Table(a, alpha, self.d, self.theta, "modified", self.joint_types, self.base, tool)
+
+    def to_standard(self):
+        """The standard table of the same arm: same joints, same tool, same T(q).
+
+        a and alpha move one row up; those of the first row move into the base.
+        """
+        if self.convention == "standard":
+            return self
+        base = self.base @ _screw_x(self.alpha[0], self.a[0])
+        a, alpha = np.append(self.a[1:], 0.0), np.append(self.alpha[1:], 0.0)
+        return Table(a, alpha, self.d, self.theta, "standard", self.joint_types, base, self.tool)
+
+
+def joint_types(types, n):
+    """n words "revolute" / "prismatic" from words or letters; None means all revolute.
+
+    Raises ValueError for another number of joints or an unknown word.
+
+    >>> joint_types("RP", 2)
+    ('revolute', 'prismatic')
+    """
+    types = ("revolute",) * n if types is None else tuple(types)
+    unknown = [kind for kind in types if str(kind).lower() not in _JOINTS]
+    if unknown:
+        raise ValueError(f"joint_types must be 'revolute' (R) or 'prismatic' (P), got {unknown[0]!r}")
+    if len(types) != n:
+        raise ValueError(f"joint_types must name {n} joints, got {len(types)}: {types}")
+    return tuple(_JOINTS[str(kind).lower()] for kind in types)
+
+
+def common_normal(S_1, S_2):
+    """DH parameters between two revolute axes: length, angle and feet of their common normal.
+
+    S_1, S_2: unit screws (6,) = (omega; v) without pitch. Returns (a, alpha, foot_1, foot_2): metres, radians
+    in [0, pi], two points (3,) in the space frame. Parallel axes have infinitely many common normals: the
+    foot on axis 1 is then its point nearest the origin. Nearly parallel axes have exactly one, and it may be
+    far away: that is the singularity of the DH parameters.
+
+    >>> a, alpha, foot_1, foot_2 = common_normal([0, 0, 1, 0, 0, 0], [0, -1, 0, 0, 0, -0.5])
+    >>> float(a), round(float(alpha), 6), foot_2.tolist()
+    (0.5, 1.570796, [0.5, 0.0, 0.0])
+    """
+    S_1, S_2 = checks.array(S_1, (6,), "S_1"), checks.array(S_2, (6,), "S_2")
+    w_1, w_2 = S_1[:3], S_2[:3]
+    for name, w in (("S_1", w_1), ("S_2", w_2)):
+        if abs(np.linalg.norm(w) - 1) > 1e-9:
+            raise ValueError(
+                f"{name} must be a revolute screw: |omega| must be 1, got {np.linalg.norm(w):.3g}"
+            )
+    q_1, q_2 = np.cross(w_1, S_1[3:]), np.cross(w_2, S_2[3:])  # the points nearest the origin
+    normal = np.cross(w_1, w_2)
+    sine, cosine = np.linalg.norm(normal), w_1 @ w_2
+    if sine < 1e-12:
+        foot_1, foot_2 = q_1, q_2 + w_2 * (w_2 @ (q_1 - q_2))
+    else:
+        foot_1 = q_1 + w_1 * (np.cross(q_2 - q_1, w_2) @ normal) / sine**2
+        foot_2 = q_2 + w_2 * (np.cross(q_2 - q_1, w_1) @ normal) / sine**2
+    return np.linalg.norm(foot_2 - foot_1), np.arctan2(sine, cosine), foot_1, foot_2
+
+
+def _screw_z(theta, d):
+    """Rot_z(theta) Trans_z(d): the half-step about and along a joint axis. (...) -> (..., 4, 4)."""
+    T = np.zeros((*np.shape(theta), 4, 4))
+    T[..., 0, 0] = T[..., 1, 1] = np.cos(theta)
+    T[..., 1, 0] = np.sin(theta)
+    T[..., 0, 1] = -T[..., 1, 0]
+    T[..., 2, 3] = d
+    T[..., 2, 2] = T[..., 3, 3] = 1
+    return T
+
+
+def _screw_x(alpha, a):
+    """Rot_x(alpha) Trans_x(a): the half-step about and along a common normal. (...) -> (..., 4, 4)."""
+    T = np.zeros((*np.shape(alpha), 4, 4))
+    T[..., 1, 1] = T[..., 2, 2] = np.cos(alpha)
+    T[..., 2, 1] = np.sin(alpha)
+    T[..., 1, 2] = -T[..., 2, 1]
+    T[..., 0, 3] = a
+    T[..., 0, 0] = T[..., 3, 3] = 1
+    return T

@@ -1,0 +1,351 @@
+"""Robot: an open chain as screws and a home pose, with everything that follows from them.
+
+T(theta) = e^[S_1]theta_1 ... e^[S_n]theta_n M      (Lynch & Park, eq. 4.14)
+"""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from . import checks, dh, lie
+
+CHUNK = 2048  # configurations per block: keeps the working set of a large batch in the cache
+UNIT = 1e-9  # how far from 1 the direction of a screw may be
+
+
+@dataclass(frozen=True, eq=False)
+class Robot:
+    """An open-chain robot arm. Make one with `from_screws`, `from_axes` or `from_dh`; arrays are read-only.
+
+    S              (6, n) space screws, one per column, (omega; v), at theta = 0
+    M              (4, 4) pose of the tool in the space frame at theta = 0
+    name           for people and error texts
+    joint_types    n words "revolute" / "prismatic"
+    q_min, q_max   (n,) joint limits, rad or m; infinite where none are known
+    v_max          (n,) speed limits, rad/s or m/s; NaN where none are known
+    home           (n,) the pose the maker calls home (zero where it has none)
+    standard_dh    dh.Table or None: the same arm, frame i on axis i + 1
+    modified_dh    dh.Table or None: the same arm, frame i on axis i
+    source         where the numbers come from
+    discrepancies  what sources say otherwise, one sentence each
+    """
+
+    S: np.ndarray
+    M: np.ndarray
+    name: str = "robot"
+    joint_types: tuple = None
+    q_min: np.ndarray = None
+    q_max: np.ndarray = None
+    v_max: np.ndarray = None
+    home: np.ndarray = None
+    standard_dh: dh.Table = None
+    modified_dh: dh.Table = None
+    source: str = ""
+    discrepancies: tuple = ()
+    B: np.ndarray = field(init=False, repr=False)  # (6, n) body screws, Ad(M^-1) S
+    _exponentials: np.ndarray = field(init=False, repr=False)  # (n, 4, 16), see _exponential_constants
+    _exponentials_to_tool: np.ndarray = field(
+        init=False, repr=False
+    )  # the same, M folded into the last joint
+    _frames_at_zero: np.ndarray = field(init=False, repr=False)  # (n, 4, 4)
+
+    def __post_init__(self):
+        S = checks.array(self.S, (), f"{self.name}: S")
+        if S.ndim != 2 or S.shape[0] != 6 or S.shape[1] == 0:
+            raise ValueError(f"{self.name}: S must be (6, n), one screw (omega; v) per column, got {S.shape}")
+        n = S.shape[1]
+        defaults = {"q_min": -np.inf, "q_max": np.inf, "v_max": np.nan, "home": 0.0}
+        for key, default in defaults.items():
+            value = np.full(n, default) if getattr(self, key) is None else getattr(self, key)
+            self._store(key, value, (n,))
+        if np.any(self.q_min > self.q_max):
+            joint = np.argmax(self.q_min > self.q_max)
+            limits = f"{self.q_min[joint]:.6g} and {self.q_max[joint]:.6g}"
+            raise ValueError(f"{self.name}: q_min must not exceed q_max; joint {joint + 1} has {limits}")
+        self._store("S", S, (6, n))
+        self._store("M", checks.pose(self.M, f"{self.name}: M"), (4, 4))
+        self._store("B", lie.adjoint(lie.inverse(self.M)) @ S, (6, n))
+        object.__setattr__(self, "joint_types", self._types_of(S))
+        constants = np.array([_exponential_constants(s) for s in S.T])
+        self._store("_exponentials", constants.reshape(n, 4, 16), (n, 4, 16))
+        constants[-1] = constants[-1] @ self.M
+        self._store("_exponentials_to_tool", constants.reshape(n, 4, 16), (n, 4, 16))
+        self._store("_frames_at_zero", self._place_frames(), (n, 4, 4))
+
+    def _store(self, key, value, shape):
+        """Fields are set once, as read-only copies: a frozen dataclass allows no plain assignment."""
+        object.__setattr__(self, key, checks.frozen(value, f"{self.name}: {key}", shape))
+
+    # -- ways to make one ---------------------------------------------------------------------------------
+
+    @classmethod
+    def from_screws(cls, S, M, **more):
+        """From space screws S (6, n) and the home pose M (4, 4). Other fields by name (see the class).
+
+        Raises ValueError where a screw has no direction or none of unit length, or M is not in SE(3).
+
+        >>> robot = Robot.from_screws([[0], [0], [1], [0], [0], [0]], np.eye(4), name="turntable")
+        >>> robot.joint_types
+        ('revolute',)
+        """
+        return cls(S, M, **more)
+
+    @classmethod
+    def from_axes(cls, w, q, M, joint_types=None, **more):
+        """From what one reads off a drawing: directions w (n, 3) and points q (n, 3) on the axes, metres.
+
+        A revolute joint gets S = (w; -w x q), a prismatic one S = (0; w). Directions are scaled to length 1.
+        Raises ValueError where a direction has length zero.
+
+        >>> robot = Robot.from_axes([[0, 0, 2]], [[1, 0, 0]], np.eye(4))
+        >>> robot.S[:, 0].tolist()
+        [0.0, 0.0, 1.0, 0.0, -1.0, 0.0]
+        """
+        name = more.get("name", "robot")
+        w, q = checks.array(w, (3,), f"{name}: w"), checks.array(q, (3,), f"{name}: q")
+        if w.ndim != 2 or w.shape != q.shape:
+            raise ValueError(
+                f"{name}: w and q must both be (n, 3), one row per joint, got {w.shape} and {q.shape}"
+            )
+        length = np.linalg.norm(w, axis=1, keepdims=True)
+        if not np.all(length > 0):
+            raise ValueError(f"{name}: the axis of joint {np.argmin(length) + 1} has direction zero")
+        w = w / length
+        slides = np.array([kind == "prismatic" for kind in dh.joint_types(joint_types, len(w))])[:, None]
+        S = (
+            np.hstack([np.where(slides, 0.0, w), np.where(slides, w, -np.cross(w, q))]).T + 0.0
+        )  # + 0.0: no -0
+        return cls(S, M, joint_types=joint_types, **more)
+
+    @classmethod
+    def from_dh(cls, table, **more):
+        """From a `dh.Table` of either convention; the other table is made from it.
+
+        >>> table = dh.Table(a=[0.5, 0.25], alpha=[0, 0], d=[0, 0], theta=[0, 0])
+        >>> Robot.from_dh(table).M[:3, 3].tolist()
+        [0.75, 0.0, 0.0]
+        """
+        if not isinstance(table, dh.Table):
+            raise ValueError(
+                f"{more.get('name', 'robot')}: from_dh needs a dh.Table, got {type(table).__name__}"
+            )
+        S, M = table.screws()
+        tables = {"standard_dh": table.to_standard(), "modified_dh": table.to_modified()}
+        return cls(S, M, **{**tables, "joint_types": table.joint_types, **more})
+
+    def with_tool(self, T):
+        """The same arm with a tool: T (4, 4) is the new tool frame in the old one. M becomes M T.
+
+        >>> Robot.from_axes([[0, 0, 1]], [[0, 0, 0]], np.eye(4)).with_tool(np.eye(4)).n
+        1
+        """
+        T = checks.pose(T, f"{self.name}: the tool")
+        return replace(self, M=self.M @ T, **self._tables(lambda table: replace(table, tool=table.tool @ T)))
+
+    def with_base(self, T):
+        """The same arm elsewhere: T (4, 4) is the old space frame in the new one. S -> Ad(T) S, M -> T M.
+
+        >>> Robot.from_axes([[0, 0, 1]], [[0, 0, 0]], np.eye(4)).with_base(np.eye(4)).n
+        1
+        """
+        T = checks.pose(T, f"{self.name}: the base")
+        tables = self._tables(lambda table: replace(table, base=T @ table.base))
+        return replace(self, S=lie.adjoint(T) @ self.S, M=T @ self.M, **tables)
+
+    def _tables(self, change):
+        """The DH tables of the arm after `change`, where it has any."""
+        tables = {"standard_dh": self.standard_dh, "modified_dh": self.modified_dh}
+        return {key: table and change(table) for key, table in tables.items()}
+
+    # -- forward kinematics --------------------------------------------------------------------------------
+
+    @property
+    def n(self):
+        """Number of joints."""
+        return self.S.shape[1]
+
+    def fk(self, theta):
+        """Pose of the tool in the space frame. theta (..., n) rad or m -> T (..., 4, 4). Eq. 4.14.
+
+        Raises ValueError if the last axis of theta is not n. NaN in, NaN out.
+
+        >>> from coursekit import robots
+        >>> robots.kuka_kr6().fk([0, 0, -np.pi / 2, np.pi / 2, 0, 0]).round(6)[:3, 3].tolist()
+        [0.445, 0.0, 0.9]
+        """
+        theta = checks.joint_angles(theta, self.n, self.name)
+        flat = theta.reshape(-1, self.n)
+        T = np.empty((len(flat), 4, 4))
+        for start in range(0, len(flat), CHUNK):
+            block = slice(start, start + CHUNK)
+            E = self._link_exponentials(flat[block], self._exponentials_to_tool)
+            product = E[0]
+            for e in E[1:]:
+                product = product @ e
+            T[block] = product
+        return T.reshape(*theta.shape[:-1], 4, 4)
+
+    def displacements(self, theta):
+        """How each link moved from where it stands at theta = 0: e^[S_1]theta_1 ... e^[S_i]theta_i.
+
+        theta (..., n) -> (..., n, 4, 4). A point p of link i (space frame, theta = 0) is now at D_i p.
+        """
+        theta = checks.joint_angles(theta, self.n, self.name)
+        flat = theta.reshape(-1, self.n)
+        D = np.empty((len(flat), self.n, 4, 4))
+        for start in range(0, len(flat), CHUNK):
+            block = slice(start, start + CHUNK)
+            E = self._link_exponentials(flat[block], self._exponentials)
+            product = D[block, 0] = E[0]
+            for i in range(1, self.n):
+                product = D[block, i] = product @ E[i]
+        return D.reshape(*theta.shape[:-1], self.n, 4, 4)
+
+    def link_frames(self, theta):
+        """Poses of the frames fixed to the links, in the space frame. theta (..., n) -> (..., n, 4, 4).
+
+        Frame i has its z along joint axis i and its origin where the modified DH convention puts it (for a
+        robot without such a table: the point of the axis nearest the previous origin). Link n carries the
+        tool, so the last frame is the tool frame: link_frames(theta)[..., -1, :, :] is fk(theta).
+        """
+        return self.displacements(theta) @ self._frames_at_zero
+
+    def _link_exponentials(self, theta, constants):
+        """e^[S_i]theta_i of every joint. theta (N, n) -> (n, N, 4, 4): one product, no loop."""
+        t = theta.T
+        basis = np.stack([np.ones_like(t), np.sin(t), np.cos(t), t], axis=-1)
+        return (basis @ constants).reshape(self.n, -1, 4, 4)
+
+    # -- Jacobians -------------------------------------------------------------------------------------------
+
+    def jacobian_space(self, theta):
+        """J_s: V_s = J_s thetadot, both in the space frame. theta (..., n) -> (..., 6, n), rows (omega; v).
+
+        Column i is Ad(e^[S_1]theta_1 ... e^[S_{i-1}]theta_{i-1}) S_i (eq. 5.11).
+
+        >>> from coursekit import robots
+        >>> robot = robots.planar_2r()
+        >>> bool(np.all(robot.jacobian_space([0, 0]) == robot.S))
+        True
+        """
+        D = self.displacements(theta)
+        R, p = D[..., :-1, :3, :3], D[..., :-1, :3, 3]
+        w_v = R @ np.stack([self.S[:3, 1:].T, self.S[3:, 1:].T], axis=-1)  # (..., n - 1, 3, 2)
+        w, v = w_v[..., 0], w_v[..., 1]
+        J = np.empty((*D.shape[:-3], 6, self.n))
+        J[..., 0] = self.S[:, 0]
+        J[..., :3, 1:] = np.swapaxes(w, -1, -2)
+        J[..., 3:, 1:] = np.swapaxes(v + _cross(p, w), -1, -2)
+        return J
+
+    def jacobian_body(self, theta):
+        """J_b: V_b = J_b thetadot, in the tool frame. theta (..., n) -> (..., 6, n), rows (omega; v).
+
+        J_b = Ad(T^-1) J_s (eq. 5.22).
+        """
+        return lie.adjoint(lie.inverse(self.fk(theta))) @ self.jacobian_space(theta)
+
+    def jacobian_geometric(self, theta):
+        """Angular velocity and velocity of the tool point, both along the base axes: (..., n) -> (..., 6, n).
+
+        Rows (w; v): v = v_s + w x p moves the reference point of the space Jacobian to the tool point p.
+        """
+        J, p = self.jacobian_space(theta), self.fk(theta)[..., :3, 3]
+        w = np.swapaxes(J[..., :3, :], -1, -2)
+        J[..., 3:, :] += np.swapaxes(_cross(w, p[..., None, :]), -1, -2)
+        return J
+
+    # -- limits ----------------------------------------------------------------------------------------------
+
+    def within_limits(self, theta):
+        """Whether every joint can be brought inside its limits. theta (..., n) -> bool (...).
+
+        A revolute joint may be turned by whole turns first: theta and theta +- 2 pi are the same attitude of
+        the link, and a joint that can reach one of them can reach it. NaN is outside.
+
+        >>> from coursekit import robots
+        >>> s030 = robots.kawasaki_s030()       # joint 2: -50 to 195 deg
+        >>> bool(s030.within_limits(np.radians([180, -174.72, 23.12, 0, 180, 0])))
+        True
+        """
+        return self.inside(theta).all(axis=-1)
+
+    def inside(self, theta):
+        """Whether each joint can be brought inside its limits. theta (..., n) -> bool (..., n)."""
+        shifted = self.nearest_turn(theta)
+        return (self.q_min <= shifted) & (shifted <= self.q_max)
+
+    def nearest_turn(self, theta):
+        """theta with revolute joints turned by whole turns into their limits where that is possible.
+
+        theta (..., n) -> (..., n). A joint that no whole turn brings inside keeps its angle.
+        """
+        theta = checks.joint_angles(theta, self.n, self.name)
+        below, above = self.q_min - theta, theta - self.q_max
+        turns = np.where(
+            below > 0, np.ceil(below / (2 * np.pi)), np.where(above > 0, -np.ceil(above / (2 * np.pi)), 0)
+        )
+        turned = theta + 2 * np.pi * turns
+        revolute = np.array([kind == "revolute" for kind in self.joint_types])
+        return np.where(revolute & (self.q_min <= turned) & (turned <= self.q_max), turned, theta)
+
+    # -- how it is put together ------------------------------------------------------------------------------
+
+    def _types_of(self, S):
+        """Joint types that the screws themselves say; a ValueError where they contradict what was given."""
+        length, speed = np.linalg.norm(S[:3], axis=0), np.linalg.norm(S[3:], axis=0)
+        for i in range(S.shape[1]):
+            if length[i] == 0 and speed[i] == 0:
+                raise ValueError(
+                    f"{self.name}: screw {i + 1} has direction zero: (omega; v) = 0 moves nothing"
+                )
+            size, part = (speed[i], "|v|") if length[i] == 0 else (length[i], "|omega|")
+            if abs(size - 1) > UNIT:
+                raise ValueError(f"{self.name}: screw {i + 1} must have {part} = 1, got {size:.6g}")
+        said = tuple("prismatic" if w == 0 else "revolute" for w in length)
+        given = dh.joint_types(self.joint_types, S.shape[1]) if self.joint_types is not None else said
+        if given != said:
+            raise ValueError(f"{self.name}: joint_types say {given}, but the screws in S are {said}")
+        return said
+
+    def _place_frames(self):
+        """The link frames at theta = 0, see link_frames. (n, 4, 4)."""
+        if self.modified_dh is not None:
+            frames = self.modified_dh.frames(np.zeros(self.n))
+        else:
+            frames, origin = np.tile(np.eye(4), (self.n, 1, 1)), np.zeros(3)
+            for i, s in enumerate(self.S.T):
+                w = s[:3] if self.joint_types[i] == "revolute" else s[3:]
+                if self.joint_types[i] == "revolute":
+                    on_axis = np.cross(w, s[3:])
+                    origin = on_axis + w * (w @ (origin - on_axis))
+                frames[i, :3, :3], frames[i, :3, 3] = _frame_along(w), origin
+        frames[-1] = self.M
+        frames.setflags(write=False)
+        return frames
+
+
+def _exponential_constants(s):
+    """K (4, 4, 4) with e^[s]t = K[0] + sin t K[1] + cos t K[2] + t K[3], for any unit screw s.
+
+    Rodrigues' formula e^[s]t = I + sin t [s] + (1 - cos t) [s]^2 + (t - sin t) ([s] + [s]^3), ordered by what
+    changes with t. The last bracket is what a screw slides along: 0 for a hinge, [s] for a prismatic joint.
+    """
+    X = lie.hat6(s)
+    slide = X + X @ X @ X
+    return np.array([np.eye(4) + X @ X, X - slide, -X @ X, slide])
+
+
+def _frame_along(w):
+    """A rotation whose z is w, x as near to the x (or, failing that, the y) of the space frame as can be."""
+    x = np.array([1.0, 0, 0]) if abs(w[0]) < 0.9 else np.array([0, 1.0, 0])
+    x = x - w * (w @ x)
+    x = x / np.linalg.norm(x)
+    return np.stack([x, np.cross(w, x), w], axis=-1)
+
+
+def _cross(a, b):
+    """a x b over the last axis: np.cross with less ceremony (it costs 15 us a call)."""
+    a0, a1, a2 = a[..., 0], a[..., 1], a[..., 2]
+    b0, b1, b2 = b[..., 0], b[..., 1], b[..., 2]
+    return np.stack([a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0], axis=-1)
