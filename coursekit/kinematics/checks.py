@@ -47,7 +47,9 @@ def pose(T, name):
         raise ValueError(
             f"{name} is not in SE(3): R'R differs from the identity by {worst:.2g} in its rotation R"
         )
-    if np.any(np.linalg.det(R) < 0):
+    with np.errstate(invalid="ignore"):
+        reflects = np.linalg.det(R) < 0
+    if np.any(reflects):
         raise ValueError(f"{name} is not in SE(3): det R = -1, so R is a reflection, not a rotation")
     if np.any(np.abs(T[..., 3, :] - [0, 0, 0, 1]) > POSE_TOLERANCE):
         raise ValueError(f"{name} is not in SE(3): its last row must be 0 0 0 1")

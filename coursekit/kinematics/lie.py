@@ -75,7 +75,7 @@ def exp6(xi):
     R = exp3(omega) and p = (I + (1 - cos t) / t^2 [w] + (t - sin t) / t^3 [w]^2) v, where t = |omega|.
     For a joint: T = exp6(S * theta). A twist with omega = 0 is a pure translation by v.
 
-    >>> exp6([0, 0, np.pi, 0, -1, 0]).round(12)[:3, 3].tolist()      # half a turn about the line x = 1
+    >>> exp6([0, 0, np.pi, 0, -np.pi, 0]).round(12)[:3, 3].tolist()      # half a turn about the line x = 1
     [2.0, 0.0, 0.0]
     """
     xi = checks.array(xi, (6,), "xi")

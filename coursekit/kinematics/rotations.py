@@ -122,7 +122,10 @@ def zyx(R):
     locked = cos_pitch < GIMBAL
     yaw = np.where(locked, np.arctan2(-r[0, 1], r[1, 1]), np.arctan2(r[1, 0], r[0, 0]))
     pitch = np.arctan2(-r[2, 0], cos_pitch)
-    roll = np.where(locked, 0.0, np.arctan2(r[2, 1], r[2, 2]))
+    # Read after the yaw is undone, not from the last row: near the lock both then err together, and R holds.
+    sin_roll = np.sin(yaw) * r[0, 2] - np.cos(yaw) * r[1, 2]
+    cos_roll = np.cos(yaw) * r[1, 1] - np.sin(yaw) * r[0, 1]
+    roll = np.where(locked, 0.0, np.arctan2(sin_roll, cos_roll))
     return np.stack([yaw, pitch, roll], axis=-1)
 
 
@@ -149,9 +152,12 @@ def xyx(R):
     r = np.moveaxis(checks.array(R, (3, 3), "R"), (-2, -1), (0, 1))
     sin_b = np.hypot(r[0, 1], r[0, 2])
     locked = sin_b < GIMBAL
-    a = np.where(locked, np.arctan2(-r[1, 2], r[1, 1]), np.arctan2(r[1, 0], -r[2, 0]))
+    a = np.where(locked, np.arctan2(r[2, 1], r[1, 1]), np.arctan2(r[1, 0], -r[2, 0]))
     b = np.arctan2(sin_b, r[0, 0])
-    c = np.where(locked, 0.0, np.arctan2(r[0, 1], r[0, 2]))
+    # Read after the first turn is undone (see zyx), not from the first row.
+    sin_c = -np.cos(a) * r[1, 2] - np.sin(a) * r[2, 2]
+    cos_c = np.cos(a) * r[1, 1] + np.sin(a) * r[2, 1]
+    c = np.where(locked, 0.0, np.arctan2(sin_c, cos_c))
     return np.stack([a, b, c], axis=-1)
 
 

@@ -1,0 +1,259 @@
+"""DH tables: both conventions, the screws they contain, and the common normal between two axes."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from coursekit import Robot, dh, lie, rotations
+
+SHAPES = [(), (1,), (3, 1, 2)]
+
+
+def random_pose(rng):
+    return lie.exp6(rng.uniform(-1, 1, 6))
+
+
+def random_table(rng, n=None, convention="standard"):
+    """An arm that nobody builds: any twist, any length, joints of both types, any base and tool."""
+    n = n or rng.integers(1, 8)
+    a, d = rng.uniform(-1, 1, (2, n))
+    alpha, theta = rng.uniform(-np.pi, np.pi, (2, n))
+    types = rng.choice(["revolute", "prismatic"], n)
+    return dh.Table(a, alpha, d, theta, convention, tuple(types), random_pose(rng), random_pose(rng))
+
+
+def turn(R):
+    T = np.eye(4)
+    T[:3, :3] = R
+    return T
+
+
+def shift(x, y, z):
+    T = np.eye(4)
+    T[:3, 3] = x, y, z
+    return T
+
+
+# -- the definition --
+
+
+def test_link_transforms_are_the_products_of_the_definition():
+    rng = np.random.default_rng(0)
+    q = rng.uniform(-1, 1, 5)
+    for convention in dh.CONVENTIONS:
+        table = random_table(rng, 5, convention)
+        A = table.link_transforms(q)
+        for i in range(5):
+            slides = table.joint_types[i] == "prismatic"
+            theta, d = table.theta[i] + q[i] * (not slides), table.d[i] + q[i] * slides
+            z = turn(rotations.rotz(theta)) @ shift(0, 0, d)
+            x = shift(table.a[i], 0, 0) @ turn(rotations.rotx(table.alpha[i]))
+            assert np.abs(A[i] - (z @ x if convention == "standard" else x @ z)).max() <= 2e-16
+
+
+def test_the_matrices_of_the_textbooks():
+    a, alpha, d, theta = 0.3, 0.7, 0.2, -0.4
+    ca, sa, ct, st_ = np.cos(alpha), np.sin(alpha), np.cos(theta), np.sin(theta)
+    standard = [
+        [ct, -st_ * ca, st_ * sa, a * ct],
+        [st_, ct * ca, -ct * sa, a * st_],
+        [0, sa, ca, d],
+        [0, 0, 0, 1],
+    ]
+    modified = [
+        [ct, -st_, 0, a],
+        [st_ * ca, ct * ca, -sa, -d * sa],
+        [st_ * sa, ct * sa, ca, d * ca],
+        [0, 0, 0, 1],
+    ]
+    for convention, expected in (("standard", standard), ("modified", modified)):
+        A = dh.Table([a], [alpha], [d], [0], convention).link_transforms([theta])
+        assert np.abs(A[0] - expected).max() <= 1e-16
+
+
+@pytest.mark.parametrize("convention", dh.CONVENTIONS)
+@pytest.mark.parametrize("shape", SHAPES)
+def test_batches_are_their_members(convention, shape):
+    rng = np.random.default_rng(1)
+    table = random_table(rng, 4, convention)
+    q = rng.uniform(-2, 2, (*shape, 4))
+    T, A, frames = table.fk(q), table.link_transforms(q), table.frames(q)
+    assert T.shape == (*shape, 4, 4)
+    assert A.shape == frames.shape == (*shape, 4, 4, 4)
+    assert np.abs(frames[..., -1, :, :] @ table.tool - T).max() <= 1e-15
+    for index in np.ndindex(shape):
+        assert np.array_equal(T[index], table.fk(q[index].tolist()))
+        assert np.array_equal(A[index], table.link_transforms(q[index].tolist()))
+
+
+# -- one arm, three ways to write it --
+
+
+@pytest.mark.parametrize("draw", range(40))
+def test_standard_modified_and_screws_are_the_same_arm(draw):
+    rng = np.random.default_rng(draw)
+    table = random_table(rng, convention=dh.CONVENTIONS[draw % 2])
+    standard, modified = table.to_standard(), table.to_modified()
+    assert (standard.convention, modified.convention) == ("standard", "modified")
+    q = rng.uniform(-2, 2, (20, table.n))
+    T = table.fk(q)
+    tolerance = 2e-15 * (2 * table.n + 5)  # metres of reach, and that many products
+    assert np.abs(standard.fk(q) - T).max() <= tolerance
+    assert np.abs(modified.fk(q) - T).max() <= tolerance
+    for form in (standard, modified):
+        S, M = form.screws()
+        product = M
+        for i in reversed(range(table.n)):
+            product = lie.exp6(S[:, i] * q[:, i : i + 1]) @ product
+        assert np.abs(product - T).max() <= tolerance
+        robot = Robot.from_dh(form)
+        assert robot.joint_types == table.joint_types
+        assert np.abs(robot.fk(q) - T).max() <= tolerance
+
+
+@pytest.mark.parametrize("draw", range(5))
+def test_there_and_back_is_the_same_table(draw):
+    table = random_table(np.random.default_rng(draw), 6)
+    back = table.to_modified().to_standard()
+    q = np.random.default_rng(draw).uniform(-2, 2, (20, 6))
+    # What the modified table must put into its tool comes back as part of the tool.
+    assert np.array_equal(back.a[:-1], table.a[:-1])
+    assert np.array_equal(back.alpha[:-1], table.alpha[:-1])
+    assert np.abs(back.fk(q) - table.fk(q)).max() <= 2e-14
+
+
+def test_a_table_of_the_right_convention_is_returned_as_it_is():
+    table = random_table(np.random.default_rng(2))
+    assert table.to_standard() is table
+    assert table.to_modified().to_modified().convention == "modified"
+
+
+def test_reading_a_standard_table_as_a_modified_one_is_another_arm():
+    table = dh.Table([0.5, 0.25], [0.3, 0], [0, 0], [0, 0])
+    misread = dh.Table(table.a, table.alpha, table.d, table.theta, "modified")
+    assert np.abs(table.fk([0.4, 0.5]) - misread.fk([0.4, 0.5])).max() > 0.1
+
+
+# -- the singularity of the DH parameters --
+
+
+def line(w, q):
+    """The unit screw of the line through q along w."""
+    w = np.array(w) / np.linalg.norm(w)
+    return np.concatenate([w, -np.cross(w, q)])
+
+
+def test_nearly_parallel_axes_have_a_common_normal_far_away():
+    """Axes 455 mm apart, one tilted by 1 mrad: they meet 455 m away, while the screw moves by 1e-3."""
+    straight = line([0, 0, 1], [0.455, 0, 0])
+    tilted = line([np.sin(1e-3), 0, np.cos(1e-3)], [0.455, 0, 0])
+    a, alpha, foot_1, foot_2 = dh.common_normal(line([0, 0, 1], [0, 0, 0]), tilted)
+    assert np.abs(tilted - straight).max() == pytest.approx(1e-3, rel=1e-6)
+    assert a == pytest.approx(0, abs=1e-10)
+    assert alpha == pytest.approx(1e-3, rel=1e-9)
+    assert foot_1 == pytest.approx([0, 0, -0.455 / np.tan(1e-3)], abs=1e-6)
+    assert abs(foot_1[2]) == pytest.approx(455, abs=0.001)
+    assert foot_2 == pytest.approx(foot_1, abs=1e-9)
+
+
+def test_parallel_axes_take_the_normal_nearest_the_origin():
+    a, alpha, foot_1, foot_2 = dh.common_normal(line([0, 0, 1], [1, 0, 5]), line([0, 0, 1], [1, 2, -3]))
+    assert (float(a), float(alpha)) == (2, 0)
+    assert foot_1.tolist() == [1, 0, 0]
+    assert foot_2.tolist() == [1, 2, 0]
+    a, alpha, *_ = dh.common_normal(line([0, 0, 1], [0, 0, 0]), line([0, 0, -1], [0, 3, 0]))
+    assert (float(a), float(alpha)) == (3, np.pi)
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_the_common_normal_is_perpendicular_to_both_axes_and_shortest(draw):
+    rng = np.random.default_rng(draw)
+    q_1, q_2 = rng.uniform(-1, 1, (2, 3))
+    S_1, S_2 = line(rng.normal(size=3), q_1), line(rng.normal(size=3), q_2)
+    a, alpha, foot_1, foot_2 = dh.common_normal(S_1, S_2)
+    sine = np.sin(alpha)
+    slack = 1e-13 / sine**2
+    assert abs((foot_2 - foot_1) @ S_1[:3]) <= slack
+    assert abs((foot_2 - foot_1) @ S_2[:3]) <= slack
+    for S, foot in ((S_1, foot_1), (S_2, foot_2)):
+        assert np.abs(np.cross(foot, S[:3]) - S[3:]).max() <= slack  # the foot lies on its axis
+    assert np.cos(alpha) == pytest.approx(S_1[:3] @ S_2[:3], abs=1e-12)
+    reciprocal = S_1[:3] @ S_2[3:] + S_1[3:] @ S_2[:3]  # = -+ a sin alpha
+    assert abs(reciprocal) == pytest.approx(a * sine, abs=10 * slack)
+
+
+# -- what is refused --
+
+
+@pytest.mark.parametrize(
+    "fields, message",
+    [
+        ({"a": [1.0], "alpha": [0.0], "d": [0.0]}, "missing: theta"),
+        ({}, "missing: a, alpha, d, theta"),
+        (
+            {"a": [1, 2], "alpha": [0], "d": [0], "theta": [0]},
+            r"one number per joint each; got shapes .*'a': \(2,\)",
+        ),
+        ({"a": [], "alpha": [], "d": [], "theta": []}, "one number per joint"),
+        ({"a": 1, "alpha": 0, "d": 0, "theta": 0}, "one number per joint"),
+        ({"convention": "craig"}, r"convention must be one of \('standard', 'modified'\), got 'craig'"),
+        ({"joint_types": ["revolute", "helical"]}, "joint_types must be .* got 'helical'"),
+        ({"joint_types": "R"}, "joint_types must name 2 joints, got 1"),
+        ({"base": 2 * np.eye(4)}, r"base is not in SE\(3\): R'R differs from the identity by 3"),
+        ({"tool": np.diag([1, 1, -1, 1])}, r"tool is not in SE\(3\): det R = -1"),
+        ({"tool": np.eye(3)}, r"tool must have shape \(\.\.\., 4, 4\), got \(3, 3\)"),
+    ],
+)
+def test_bad_tables_say_what_is_wrong(fields, message):
+    whole = {"a": [1, 2], "alpha": [0, 0], "d": [0, 0], "theta": [0, 0]}
+    with pytest.raises(ValueError, match=message):
+        dh.Table(**(fields if "a" in fields or not fields else whole | fields))
+
+
+def test_the_wrong_number_of_joints_names_the_table():
+    table = dh.Table([0.5, 0.25], [0, 0], [0, 0], [0, 0])
+    with pytest.raises(
+        ValueError, match=r"the standard DH table has 2 joints: theta must have shape \(\.\.\., 2\)"
+    ):
+        table.fk([0, 0, 0])
+    with pytest.raises(ValueError, match="the modified DH table has 2 joints"):
+        table.to_modified().link_transforms(0.5)
+
+
+def test_a_screw_with_no_unit_direction_has_no_common_normal():
+    z = line([0, 0, 1], [0, 0, 0])
+    with pytest.raises(ValueError, match=r"S_2 must be a revolute screw: \|omega\| must be 1, got 0"):
+        dh.common_normal(z, [0, 0, 0, 1, 0, 0])
+    with pytest.raises(ValueError, match=r"S_1 must have shape \(\.\.\., 6\), got \(4,\)"):
+        dh.common_normal([0, 0, 1, 0], z)
+
+
+def test_tables_cannot_be_changed():
+    table = dh.Table([0.5, 0.25], [0, 0], [0, 0], [0, 0])
+    with pytest.raises(ValueError, match="read-only"):
+        table.a[0] = 1
+    with pytest.raises(AttributeError):
+        table.a = np.zeros(2)
+    for array in (table.alpha, table.d, table.theta, table.base, table.tool):
+        assert not array.flags.writeable
+
+
+def test_a_table_does_not_share_memory_with_what_it_was_made_from():
+    a = np.array([0.5, 0.25])
+    table = dh.Table(a, [0, 0], [0, 0], [0, 0])
+    a[0] = 9
+    assert table.a[0] == 0.5
+
+
+def test_nan_in_nan_out():
+    table = random_table(np.random.default_rng(3), 3)
+    T = table.fk([[0.1, 0.2, 0.3], [0.1, np.nan, 0.3]])
+    assert not np.isnan(T[0]).any()
+    assert np.isnan(T[1, :3]).any()
+
+
+def test_joint_types_are_read_from_words_and_letters():
+    assert dh.joint_types(None, 2) == ("revolute", "revolute")
+    assert dh.joint_types("RpR", 3) == ("revolute", "prismatic", "revolute")
+    assert dh.joint_types(["Prismatic", "r"], 2) == ("prismatic", "revolute")
