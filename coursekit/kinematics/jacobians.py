@@ -1,0 +1,209 @@
+"""The Jacobian by the methods the course compares, and what one reads from it: ellipsoids, manipulability.
+
+Three roads to the same matrix, rows (omega; v): angular velocity and velocity of the tool point, along the
+base axes. All equal `robot.jacobian_geometric`. Sources: Innopolis assignment 3 (2020), sections 2 and 3;
+Siciliano et al. (2010), section 3.1; for the ellipsoids the Panda programming assignment and Lynch & Park,
+section 5.4.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import checks, lie
+
+PARTS = {"angular": slice(0, 3), "linear": slice(3, 6)}
+ROUNDING = (
+    8 * np.finfo(float).eps
+)  # a singular value smaller than this times the largest is rounding: it is 0
+
+
+def skew_theory(robot, theta):
+    """Column i is (w_i; w_i x (p_n - o_i)): the axis, and the lever from a point of it to the tool.
+
+    theta (..., n) rad or m -> J (..., 6, n), rows (omega; v) along the base axes. Where joint i slides, w_i
+    = 0 and v is the direction of the slide. Innopolis assignment 3 (2020), section 2.
+
+    >>> from coursekit import robots
+    >>> skew_theory(robots.planar_2r(1, 1), [0, 0])[[2, 3, 4]].round(12).tolist()
+    [[1.0, 1.0], [0.0, 0.0], [2.0, 1.0]]
+    """
+    before = _transforms_before(robot, theta)
+    w, v = robot.S[:3].T, robot.S[3:].T
+    point = np.cross(w, v)  # of the axis, at theta = 0; the zero vector for a slide
+    along = v + np.cross(w, point)  # what the joint slides along its axis: 0 for a hinge
+    R, p = before[..., :3, :3], before[..., :3, 3]
+    w_i, along_i = _apply(R, w), _apply(R, along)
+    o_i = _apply(R, point) + p
+    p_n = robot.fk(theta)[..., None, :3, 3]
+    v_i = np.cross(w_i, p_n - o_i) + along_i
+    return np.swapaxes(np.concatenate([w_i, v_i], axis=-1), -1, -2)
+
+
+def by_matrix_derivative(robot, theta):
+    """Differentiate T = H_1 ... H_n M by one joint at a time, and read velocities off the matrix.
+
+    dT/dtheta_i = T_left Hdot_i T_right. Behind it T_o takes the rotation of T back, so that
+    dT/dtheta_i T_o = [[ [w], v ], [0, 0]]: w stands in the entries (3,2), (1,3), (2,1), v in the last column.
+    theta (..., n) -> J (..., 6, n), rows (omega; v). Innopolis assignment 3 (2020), section 3.
+
+    >>> from coursekit import robots
+    >>> by_matrix_derivative(robots.planar_2r(1, 1), [0, 0])[[2, 3, 4]].round(12).tolist()
+    [[1.0, 1.0], [0.0, 0.0], [2.0, 1.0]]
+    """
+    theta = checks.joint_angles(theta, robot.n, robot.name)
+    H = lie.exp6(robot.S.T * theta[..., None])
+    H_dot = lie.hat6(robot.S.T) @ H
+    T_left = _transforms_before(robot, theta)
+    T = robot.fk(theta)
+    T_right = lie.inverse(T_left @ H) @ T[..., None, :, :]
+    T_o = np.zeros_like(T)
+    T_o[..., :3, :3], T_o[..., 3, 3] = np.swapaxes(T[..., :3, :3], -1, -2), 1
+    T_dot = T_left @ H_dot @ T_right @ T_o[..., None, :, :]
+    rows = [T_dot[..., 2, 1], T_dot[..., 0, 2], T_dot[..., 1, 0], *np.moveaxis(T_dot[..., :3, 3], -1, 0)]
+    return np.stack(rows, axis=-2)
+
+
+def by_differences(robot, theta, step=1e-5):
+    """Move each joint a step forwards and a step back, and divide by what lies between.
+
+    theta (..., n) -> J (..., 6, n), rows (omega; v); good to 1e-10 with the default step. The
+    difference of two rotations is the rotation vector between them, log(R_+ R_-^T). Raises ValueError for a
+    step that is not positive.
+
+    >>> from coursekit import robots
+    >>> by_differences(robots.planar_2r(1, 1), [0, 0])[[2, 3, 4]].round(6).tolist()
+    [[1.0, 1.0], [0.0, 0.0], [2.0, 1.0]]
+    """
+    if not step > 0:
+        raise ValueError(f"step must be a positive number (rad or m), got {step}")
+    theta = checks.joint_angles(theta, robot.n, robot.name)[..., None, :]
+    moves = step * np.eye(robot.n)
+    T_plus, T_minus = robot.fk(theta + moves), robot.fk(theta - moves)  # (..., n, 4, 4), one joint moved
+    R_plus, R_minus = T_plus[..., :3, :3], T_minus[..., :3, :3]
+    w = lie.log3(R_plus @ np.swapaxes(R_minus, -1, -2))
+    v = T_plus[..., :3, 3] - T_minus[..., :3, 3]
+    return np.swapaxes(np.concatenate([w, v], axis=-1), -1, -2) / (2 * step)
+
+
+def planar(robot, theta):
+    """Velocity of the tool point of a planar arm. theta (..., n) -> (..., 2, n), rows (x, y) of the base.
+
+    Raises ValueError where a joint leaves the x-y plane. Robotics I exam, 17 June 2019, exercise 2.
+
+    >>> from coursekit import robots
+    >>> planar(robots.planar_2r(), [np.pi / 4, -np.pi / 2]).round(4).tolist()
+    [[-0.1768, 0.1768], [0.5303, 0.1768]]
+    """
+    out_of_plane = np.any(np.abs(robot.S[[0, 1, 5]]) > 1e-12, axis=0)
+    if np.any(out_of_plane):
+        joint = np.argmax(out_of_plane) + 1
+        raise ValueError(f"{robot.name} is not a planar arm: joint {joint} moves out of the x-y plane")
+    return robot.jacobian_geometric(theta)[..., 3:5, :]
+
+
+@dataclass(frozen=True, eq=False)
+class Ellipsoid:
+    """What unit joint rates reach: half axes `lengths` (..., 3), longest first, along the columns of `axes`.
+
+    lengths are the square roots of the eigenvalues of A A^T, 0 where a direction is lost; axes (..., 3, 3)
+    is a rotation, so column 3 completes the other two. Units: rad/s ("angular") or m/s ("linear") per unit
+    rate.
+    """
+
+    axes: np.ndarray
+    lengths: np.ndarray
+
+    @property
+    def product(self):
+        """sqrt(lambda_1 lambda_2 lambda_3), the product of the half axes: what the sources call volume V."""
+        return np.prod(self.lengths, axis=-1)
+
+    @property
+    def volume(self):
+        """The volume of the ellipsoid, 4/3 pi times the product of its half axes."""
+        return 4 / 3 * np.pi * self.product
+
+    @property
+    def isotropy(self):
+        """mu_1 = sqrt(lambda_max / lambda_min): 1 for a sphere, infinite where a direction is lost."""
+        longest, shortest = self.lengths[..., 0], self.lengths[..., -1]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(shortest == 0, np.inf, longest / shortest)
+
+    @property
+    def condition(self):
+        """mu_2 = lambda_max / lambda_min, the square of the isotropy."""
+        return self.isotropy**2
+
+
+def ellipsoid(J, part="angular"):
+    """The velocity ellipsoid of the angular or the linear rows of a Jacobian. J (..., 6, n) -> Ellipsoid.
+
+    By singular values of the rows A, never by eigenvalues of A A^T: squaring would lose half of the digits,
+    and a flat ellipsoid its exact zero. Raises ValueError for another part. NaN in, NaN out.
+
+    >>> from coursekit import robots
+    >>> flat = ellipsoid(robots.franka_panda().jacobian_body([0, 0, 0, 0, 0, 0, 0]), "angular")
+    >>> (flat.lengths**2).round(12).tolist(), float(flat.volume), float(flat.isotropy)
+    ([4.0, 3.0, 0.0], 0.0, inf)
+    """
+    if part not in PARTS:
+        raise ValueError(f"part must be 'angular' or 'linear', got {part!r}")
+    A = _jacobian(J)[..., PARTS[part], :]
+    axes, found = left_singular(A)
+    lengths = np.zeros((*found.shape[:-1], 3))
+    lengths[..., : found.shape[-1]] = np.where(found < ROUNDING * found[..., :1], 0.0, found)
+    axes[..., 2] = np.cross(axes[..., 0], axes[..., 1])
+    return Ellipsoid(axes, lengths)
+
+
+def manipulability(J):
+    """Product of the singular values: sqrt(det(J J^T)) for n >= rows (Yoshikawa), |det J| for a square J.
+
+    J (..., rows, n) -> (...). With fewer joints than rows it is sqrt(det(J^T J)).
+
+    >>> from coursekit import robots
+    >>> round(float(manipulability(planar(robots.planar_2r(), [0, np.pi / 2]))), 6)
+    0.125
+    """
+    J = checks.array(J, (), "J")
+    if J.ndim < 2:
+        raise ValueError(f"J must have shape (..., rows, n), got {J.shape}")
+    if J.shape[-1] == J.shape[-2]:
+        with np.errstate(invalid="ignore"):  # NaN in, NaN out, silently
+            return np.abs(np.linalg.det(J))
+    return np.prod(left_singular(J)[1], axis=-1)
+
+
+def left_singular(A):
+    """Left singular vectors (..., m, m), as columns, and singular values (..., min(m, n)), largest first.
+
+    A (..., m, n). The sign of each vector is fixed: its largest component is positive. NaN in, NaN out.
+    """
+    missing = np.isnan(A).any(axis=(-2, -1))
+    U, sigma, _ = np.linalg.svd(np.where(missing[..., None, None], 0.0, A))
+    largest = np.take_along_axis(U, np.abs(U).round(9).argmax(axis=-2, keepdims=True), axis=-2)
+    U = U * np.where(largest < 0, -1.0, 1.0)
+    U[missing], sigma[missing] = np.nan, np.nan
+    return U, sigma
+
+
+def _jacobian(J):
+    """J as a float array (..., 6, n), or a ValueError."""
+    J = checks.array(J, (), "J")
+    if J.ndim < 2 or J.shape[-2] != 6:
+        raise ValueError(f"J must have shape (..., 6, n), rows (omega; v), got {J.shape}")
+    return J
+
+
+def _transforms_before(robot, theta):
+    """e^[S_1]theta_1 ... e^[S_{i-1}]theta_{i-1} for every joint i. (..., n, 4, 4)."""
+    D = robot.displacements(theta)
+    first = np.broadcast_to(np.eye(4), (*D.shape[:-3], 1, 4, 4))
+    return np.concatenate([first, D[..., :-1, :, :]], axis=-3)
+
+
+def _apply(R, x):
+    """R_i x_i for every joint. R (..., n, 3, 3), x (n, 3) -> (..., n, 3)."""
+    return (R @ x[..., None])[..., 0]

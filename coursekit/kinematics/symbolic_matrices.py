@@ -1,0 +1,115 @@
+"""The matrices of kinematics in sympy: turns, poses, adjoints, e^[S]theta and DH links, all exact."""
+
+import sympy as sp
+
+
+def rotx(angle):
+    """Turn about x, a (3, 3) Matrix.
+
+    >>> rotx(sp.pi / 2)
+    Matrix([
+    [1, 0,  0],
+    [0, 0, -1],
+    [0, 1,  0]])
+    """
+    c, s = sp.cos(angle), sp.sin(angle)
+    return sp.Matrix([[1, 0, 0], [0, c, -s], [0, s, c]])
+
+
+def roty(angle):
+    """Turn about y, a (3, 3) Matrix."""
+    c, s = sp.cos(angle), sp.sin(angle)
+    return sp.Matrix([[c, 0, s], [0, 1, 0], [-s, 0, c]])
+
+
+def rotz(angle):
+    """Turn about z, a (3, 3) Matrix."""
+    c, s = sp.cos(angle), sp.sin(angle)
+    return sp.Matrix([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+
+
+def xyx(a, b, c):
+    """R_x(a) R_y(b) R_x(c): a wrist whose axes are x, y, x. TPK4170 report 2021, eq. 4.17.
+
+    >>> a, b, c = sp.symbols("a b c")
+    >>> xyx(a, b, c)[1, 1]
+    -sin(a)*sin(c)*cos(b) + cos(a)*cos(c)
+    """
+    return rotx(a) * roty(b) * rotx(c)
+
+
+def pose(R=None, p=(0, 0, 0)):
+    """The (4, 4) Matrix of a rotation and a position."""
+    T = sp.eye(4)
+    T[:3, :3] = sp.eye(3) if R is None else R
+    T[:3, 3] = sp.Matrix(p)
+    return T
+
+
+def inverse(T):
+    """T^-1 = [[R', -R' p], [0, 1]]."""
+    R, p = T[:3, :3], T[:3, 3]
+    return pose(R.T, -R.T * p)
+
+
+def adjoint(T):
+    """[Ad_T] = [[R, 0], [[p] R, R]] for twists (omega; v), a (6, 6) Matrix."""
+    R, p = T[:3, :3], T[:3, 3]
+    return sp.Matrix(sp.BlockMatrix([[R, sp.zeros(3, 3)], [hat3(p) * R, R]]))
+
+
+def hat3(w):
+    """[w]: the matrix with [w] x = w cross x."""
+    x, y, z = w
+    return sp.Matrix([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+
+
+def screw_exp(S, theta):
+    """e^[S]theta of a unit screw S = (omega; v), a hinge or a slide: a (4, 4) Matrix.
+
+    R = I + sin(theta) [w] + (1 - cos(theta)) [w]^2 and
+    p = (theta I + (1 - cos(theta)) [w] + (theta - sin(theta)) [w]^2) v. Lynch & Park, eqs. 3.51 and 3.88.
+
+    >>> t, l = sp.symbols("theta l")
+    >>> screw_exp([0, 0, 1, 0, -l, 0], t)[:2, 3].T
+    Matrix([[l*(1 - cos(theta)), -l*sin(theta)]])
+    """
+    S = sp.Matrix(S)
+    W, v = hat3(S[:3]), sp.Matrix(S[3:])
+    sine, versine = sp.sin(theta), 1 - sp.cos(theta)
+    R = sp.eye(3) + sine * W + versine * W**2
+    p = (theta * sp.eye(3) + versine * W + (theta - sine) * W**2) * v
+    # What is left of theta itself (a hinge has no term in it) cancels when the entry is expanded.
+    return pose(R.applyfunc(sp.expand), p.applyfunc(lambda e: sp.collect(sp.expand(e), S.free_symbols)))
+
+
+def half_steps(a, alpha, d, theta):
+    """The two halves of a DH link: about and along z, then about and along x. Two (4, 4) Matrices.
+
+    TPK4170 report 2021, eqs. 2.2 and 2.3.
+
+    >>> along_z, along_x = half_steps(*sp.symbols("a alpha d theta"))
+    >>> along_z[:3, 3].T, along_x[:3, 3].T
+    (Matrix([[0, 0, d]]), Matrix([[a, 0, 0]]))
+    """
+    return pose(rotz(theta), (0, 0, d)), pose(rotx(alpha), (a, 0, 0))
+
+
+def dh_matrix(a, alpha, d, theta, convention="standard"):
+    """A_i of one DH row. "standard": z then x; "modified": x then z, with a and alpha of the row before.
+
+    Raises ValueError for another convention. Siciliano et al., eq. 2.52; Lynch & Park, appendix C.
+
+    >>> a, d, theta = sp.symbols("a d theta")
+    >>> dh_matrix(a, sp.pi / 2, d, theta)[0, :]
+    Matrix([[cos(theta), 0, sin(theta), a*cos(theta)]])
+    """
+    along_z, along_x = half_steps(a, alpha, d, theta)
+    if convention not in ("standard", "modified"):
+        raise ValueError(f"convention must be 'standard' or 'modified', got {convention!r}")
+    return along_z * along_x if convention == "standard" else along_x * along_z
+
+
+def turn(w, angle):
+    """Rotation about the unit vector w."""
+    return screw_exp([*w, 0, 0, 0], angle)[:3, :3]
