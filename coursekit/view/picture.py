@@ -1,0 +1,206 @@
+"""A scene as a PNG, without a browser: what GitHub, nbconvert and a reader without WebGL see.
+
+A small software renderer: every triangle is spread over the pixels of its bounding box, and at each pixel the
+nearest wins. All triangles at once, in numpy.
+"""
+
+import importlib.util
+import io
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from PIL import Image, ImageDraw, ImageFilter, ImageFont
+
+from . import stage
+from .camera import FOV
+from .paint import PALETTE, channels, color
+
+PAPER = np.array([0.972, 0.976, 0.982])
+KEY = np.array([0.8, -0.95, 1.9]) / np.linalg.norm([0.8, -0.95, 1.9])  # where the light comes from
+INK = {"x": 0xC93D31, "y": 0x2F8A4B, "z": 0x2F63C9, "axis": 0x6A3FB0, "tick": 0x8A94A0}
+FINER = 2  # pixels drawn per pixel kept, along each side
+SHADES = 96  # colors in the file
+
+
+def draw(scene, width=720, height=440, view="home"):
+    """The scene from one of its views as PNG bytes; the same scene gives the same bytes."""
+    eye = _Eye(scene.views[view], width * FINER, height * FINER)
+    shown = [path for path in scene.parts if scene.visible(path)]
+    worlds = scene.worlds(shown)
+    things = [
+        (part.mesh(coarse=True).moved(worlds[path]), part) for path in shown for part in scene.parts[path]
+    ]
+    solid = [thing for thing in things if thing[1].opacity == 1]
+    canvas = _ground(scene, eye, [mesh for mesh, part in solid if part.casts])
+    nothing_near = np.zeros(len(canvas))
+    for ghost in scene.ghosts:
+        _paint(canvas, nothing_near, eye, list(_copies(scene, ghost)), ghost["opacity"])
+    near = _paint(canvas, nothing_near, eye, solid)
+    for thing in things:
+        if thing[1].opacity < 1:
+            _paint(canvas, near, eye, [thing], thing[1].opacity)
+    for xray in sorted(
+        {part.xray for _, part in solid} - {0}
+    ):  # what shines through, faintly, even where hidden
+        _paint(canvas, nothing_near, eye, [thing for thing in solid if thing[1].xray == xray], xray)
+    pixels = (np.clip(canvas, 0, 1) * 255).round().astype(np.uint8).reshape(eye.height, eye.width, 3)
+    image = Image.fromarray(pixels).resize((width, height), Image.Resampling.BOX)
+    _letter(image, scene, eye)
+    file = io.BytesIO()
+    image.quantize(SHADES, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(file, "PNG")
+    return file.getvalue()
+
+
+class _Eye:
+    """A pinhole camera: points in the space frame to pixels and nearness (1 / distance along the view)."""
+
+    def __init__(self, stand, width, height):
+        self.position = np.array(stand["position"])
+        back = self.position - stand["target"]
+        back /= np.linalg.norm(back)
+        right = np.cross([0, 0, 1], back)
+        right /= np.linalg.norm(right)
+        self.axes = np.array([right, np.cross(back, right), -back])
+        self.width, self.height = width, height
+        self.focus = height / 2 / np.tan(np.radians(FOV / 2))
+
+    def project(self, points):
+        x, y, away = self.axes @ (points - self.position).T
+        away = np.maximum(away, 1e-6)
+        return np.column_stack(
+            [self.width / 2 + self.focus * x / away, self.height / 2 - self.focus * y / away]
+        ), 1 / away
+
+
+def _rasterise(eye, pixel, nearness, faces, both_sides=False):
+    """What the triangles cover: pixel (m,), corners (m, 3), barycentric weights (m, 3), nearness (m,)."""
+    (ax, ay), (bx, by), (cx, cy) = (pixel[faces[:, k]].T for k in range(3))
+    area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+    faced = np.abs(area) > 1e-9 if both_sides else area < -1e-9  # pixels count downwards
+    faces, area, ax, ay, bx, by, cx, cy = (v[faced] for v in (faces, area, ax, ay, bx, by, cx, cy))
+    left, right = (f(f(ax, bx), cx).clip(0, eye.width) for f in (np.minimum, np.maximum))
+    top, bottom = (f(f(ay, by), cy).clip(0, eye.height) for f in (np.minimum, np.maximum))
+    # pixel centres lie at + 0.5
+    left, top = np.ceil(left - 0.5).astype(int), np.ceil(top - 0.5).astype(int)
+    wide, high = np.ceil(right - 0.5).astype(int) - left, np.ceil(bottom - 0.5).astype(int) - top
+    count = wide * high
+    face = np.repeat(np.arange(len(faces)), count)
+    row, column = np.divmod(np.arange(len(face)) - np.repeat(np.cumsum(count) - count, count), wide[face])
+    x, y = left[face] + column, top[face] + row
+
+    def weight(
+        px, py, qx, qy
+    ):  # how far a pixel is from the edge p q, as a part of the triangle's height there
+        slope_x, slope_y = (py - qy) / area, (qx - px) / area
+        return slope_x[face] * (x + 0.5) + slope_y[face] * (y + 0.5) - (slope_x * px + slope_y * py)[face]
+
+    u, v = weight(bx, by, cx, cy), weight(cx, cy, ax, ay)
+    inside = (u >= 0) & (v >= 0) & (u + v <= 1)
+    u, v, at = u[inside], v[inside], (y * eye.width + x)[inside]
+    corners, weights = faces[face[inside]], np.column_stack([u, v, 1 - u - v])
+    return at, corners, weights, np.einsum("ij,ij->i", weights, nearness[corners])
+
+
+def _paint(canvas, near, eye, things, opacity=1.0):
+    """Paint (mesh, part) pairs onto the canvas where they are nearer than `near`; the new nearness."""
+    if not things:
+        return near
+    vertices, faces = _together([mesh for mesh, _ in things])
+    normals = np.concatenate([mesh.normals for mesh, _ in things])
+    look = np.array([[*channels(color(part.color)), part.glow] for _, part in things])
+    look = np.repeat(look, [len(mesh.vertices) for mesh, _ in things], axis=0)
+    at, corners, weights, depth = _rasterise(eye, *eye.project(vertices), faces, both_sides=opacity < 1)
+    nearest = near.copy()
+    np.maximum.at(nearest, at, depth)
+    seen = (depth >= nearest[at]) & (depth > near[at])
+    at, corners, weights = at[seen], corners[seen], weights[seen]
+    normal = np.einsum("ij,ijk->ik", weights, normals[corners])
+    paint = look[corners[:, 0]]
+    canvas[at] = (1 - opacity) * canvas[at] + opacity * _shade(paint[:, :3], normal, paint[:, 3], eye)
+    return nearest
+
+
+def _together(meshes):
+    """All vertices and all faces of several meshes."""
+    starts = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes[:-1]])
+    faces = [mesh.faces + start for mesh, start in zip(meshes, starts, strict=True)]
+    return np.concatenate([mesh.vertices for mesh in meshes]), np.concatenate(faces)
+
+
+def _shade(base, normal, glow, eye):
+    """Color under one key light and a bright sky, on the side that is seen."""
+    toward = np.sign(normal @ eye.axes[2])[:, None]
+    normal = normal * np.where(toward > 0, -1, 1)
+    normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-12)
+    key = np.clip(normal @ KEY, 0, 1)
+    sky = 0.5 + 0.5 * normal[:, 2]
+    light = 0.5 + 0.22 * sky + 0.45 * key
+    half = KEY - eye.axes[2]
+    gloss = 0.16 * np.clip(normal @ (half / np.linalg.norm(half)), 0, 1) ** 24
+    light += (1 - np.minimum(light, 1)) * np.minimum(2 * glow, 1)
+    return base * light[:, None] + gloss[:, None]
+
+
+def _copies(scene, ghost):
+    """The parts of a ghost, in its color."""
+    links = [f"{ghost['path']}/{k}" for k in range(1, ghost["n"] + 1)]
+    for k, T in enumerate(scene.worlds(links).values(), 1):
+        for part in scene.parts[f"{ghost['src']}/{k}/solid"]:
+            yield part.mesh(coarse=True).moved(T), replace(part, color=ghost["color"])
+
+
+def _ground(scene, eye, casting):
+    """Paper with the grid and the shadow: flat (pixels, 3)."""
+    image = Image.new("RGB", (eye.width, eye.height), tuple(int(255 * v) for v in PAPER))
+    pen = ImageDraw.Draw(image)
+    ink = channels(PALETTE["grid"])
+    pieces, alpha = stage.grid_lines(scene.size, scene.floor)
+    pixel, nearness = eye.project(pieces.reshape(-1, 3))
+    ahead = (nearness.reshape(-1, 2) < 1e5).all(axis=1)
+    for (a, b), strength, shown in zip(pixel.reshape(-1, 2, 2), alpha.mean(axis=1), ahead, strict=True):
+        if shown:
+            shade = (1 - strength) * PAPER + strength * ink
+            pen.line([*a, *b], fill=tuple(int(255 * v) for v in shade), width=FINER)
+    canvas = np.asarray(image, float).reshape(-1, 3) / 255
+    if casting and eye.position[2] > scene.floor:
+        points, faces = _together(casting)
+        points = points - KEY * ((points[:, 2:] - scene.floor) / KEY[2])
+        mask = np.zeros(eye.width * eye.height, np.uint8)
+        at = _rasterise(eye, *eye.project(points), faces)[0]
+        mask[at] = 255
+        soft = Image.fromarray(mask.reshape(eye.height, eye.width)).filter(
+            ImageFilter.GaussianBlur(4 * FINER)
+        )
+        canvas = canvas * (1 - 0.2 * np.asarray(soft, float).reshape(-1, 1) / 255)
+    return canvas
+
+
+def _letter(image, scene, eye):
+    """Labels with a halo of paper, drawn last so that nothing hides them."""
+    pen = ImageDraw.Draw(image)
+    halo = tuple(int(255 * v) for v in PAPER)
+    labels = scene.labels
+    worlds = scene.worlds({label["path"] for label in labels})
+    for label in labels:
+        T = worlds[label["path"]]
+        pixel, nearness = eye.project((T[:3, :3] @ label["pos"] + T[:3, 3])[None])
+        if nearness[0] < 1e5:
+            ink = INK.get(label["cls"], PALETTE["bone"])
+            small = label["cls"] in ("tick", "note", "axis")
+            look = {
+                "font": _font(12 if small else 14),
+                "anchor": "mm",
+                "stroke_width": 2,
+                "stroke_fill": halo,
+            }
+            pen.text(tuple(pixel[0] / FINER), label["text"], fill=f"#{ink:06x}", **look)
+
+
+@cache
+def _font(size):
+    """DejaVu Sans, which comes with matplotlib (found without importing it); else Pillow's own font."""
+    found = importlib.util.find_spec("matplotlib")
+    path = Path(found.origin).parent / "mpl-data/fonts/ttf/DejaVuSans-Bold.ttf" if found else None
+    return ImageFont.truetype(str(path), size) if path and path.is_file() else ImageFont.load_default(size)

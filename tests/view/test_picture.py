@@ -1,0 +1,142 @@
+"""The picture without a browser shows what the scene says: what, where and in which color, always alike."""
+
+import io
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from coursekit import robots
+from coursekit.view.camera import FOV
+from coursekit.view.scene import Scene
+
+CATALOGUE = robots.all()
+
+
+def pixels(scene, width=480, height=320, **more):
+    image = Image.open(io.BytesIO(scene.png(width, height, **more)))
+    return np.asarray(image.convert("RGB"), int)
+
+
+def orange(picture):
+    r, g, b = np.moveaxis(picture, -1, 0)
+    return (r > 150) & (r - b > 80) & (g < r)
+
+
+def project(scene, p, width, height):
+    """Where a point must appear: a pinhole camera written out once more."""
+    eye, target = (np.array(scene.camera[key]) for key in ("position", "target"))
+    forward = (target - eye) / np.linalg.norm(target - eye)
+    right = np.cross(forward, [0, 0, 1])
+    right /= np.linalg.norm(right)
+    d = np.asarray(p) - eye
+    scale = height / 2 / np.tan(np.radians(FOV) / 2) / (d @ forward)
+    return width / 2 + scale * (d @ right), height / 2 - scale * (d @ np.cross(right, forward))
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_every_robot_is_in_its_picture(name):
+    scene = Scene()
+    scene.robot(CATALOGUE[name])
+    png = scene.png(640, 430)
+    assert png.startswith(b"\x89PNG")
+    assert 5_000 < len(png) < 40_000
+    image = Image.open(io.BytesIO(png))
+    assert image.size == (640, 430)
+    body = orange(np.asarray(image.convert("RGB"), int))
+    assert 0.01 < body.mean() < 0.3
+    border = np.concatenate([body[0], body[-1], body[:, 0], body[:, -1]])
+    assert not border.any()
+
+
+def test_the_same_scene_gives_the_same_bytes():
+    pictures = []
+    for _ in range(2):
+        scene = Scene()
+        scene.robot(robots.planar_2r())
+        scene.frame("/ck/world", letter="0")
+        pictures.append(scene.png(320, 200))
+    assert pictures[0] == pictures[1]
+    scene.set_theta("robot", [0.1, 0.2])
+    assert scene.png(320, 200) != pictures[0]
+
+
+@pytest.mark.parametrize("p", [[0.2, -0.1, 0.5], [-0.3, 0.2, 0.1], [0, 0, 0.8]])
+def test_a_point_appears_where_the_camera_sees_it(p):
+    scene = Scene()
+    scene.point("/ck/p", p, color=0xFF0000, radius=0.03)
+    picture = pixels(scene)
+    r, g, b = np.moveaxis(picture, -1, 0)
+    y, x = np.nonzero((r > 180) & (g < 100) & (b < 100))
+    np.testing.assert_allclose([x.mean() + 0.5, y.mean() + 0.5], project(scene, p, 480, 320), atol=1)
+
+
+@pytest.mark.parametrize("nearer", ["red", "blue"])
+def test_what_is_nearer_hides_what_is_behind(nearer):
+    scene = Scene()
+    eye, middle = np.array(scene.camera["position"]), np.array(scene.camera["target"])
+    toward = 0.3 * (eye - middle) / np.linalg.norm(eye - middle)
+    front, back = (0xFF0000, 0x0000FF) if nearer == "red" else (0x0000FF, 0xFF0000)
+    scene.point("/ck/back", middle - toward, color=back, radius=0.05)
+    scene.point("/ck/front", middle + toward, color=front, radius=0.05)
+    r, _, b = pixels(scene)[160, 240]
+    assert (r > b) == (nearer == "red")
+
+
+def test_hidden_things_are_not_drawn_and_ghosts_are_pale():
+    scene = Scene()
+    scene.robot(robots.kuka_kr6())
+    assert orange(pixels(scene)).any()
+    scene.look("robot", solid=False)
+    assert not orange(pixels(scene)).any()
+    empty = pixels(scene)
+    scene.robot(robots.kuka_kr6(), [0.5, -1, 1, 0, 0, 0], name="goal", style="ghost")
+    ghost = pixels(scene)
+    changed = np.abs(ghost - empty).max(axis=-1) > 12
+    assert changed.mean() > 0.01
+    r, _, b = np.moveaxis(ghost[changed], -1, 0)
+    assert np.median(b - r) > 15  # bluish
+    assert np.median(b) > 180  # and pale
+
+
+def test_a_surface_can_be_seen_through():
+    scene = Scene()
+    middle = np.array(scene.camera["target"])
+    scene.point("/ck/p", middle, color=0xFF0000, radius=0.04)
+    clear = pixels(scene)[160, 240]
+    scene.sphere("/ck/s", middle, 0.3)
+    veiled, beside = pixels(scene)[160, 240], pixels(scene)[160, 290]
+    assert veiled[0] > veiled[2] + 60  # still red
+    assert (veiled != clear).any()
+    assert (beside < 245).any()  # the sphere itself shows
+
+
+def test_labels_are_written():
+    bare, lettered = Scene(), Scene()
+    for scene, label in ((bare, ""), (lettered, "here")):
+        scene.point("/ck/p", [0, 0, 0.5], label)
+    difference = np.abs(pixels(bare) - pixels(lettered)).max(axis=-1) > 60
+    y, x = np.nonzero(difference)
+    at = project(lettered, [0, 0, 0.524], 480, 320)
+    assert difference.sum() > 30
+    assert abs(x.mean() - at[0]) < 4
+    assert abs(y.mean() - at[1]) < 6
+
+
+def test_a_robot_throws_a_shadow_on_the_floor():
+    scene = Scene()
+    scene.robot(robots.kuka_kr6())
+    with_robot = pixels(scene)
+    scene.remove("/ck/robot")
+    empty = pixels(scene)
+    darker = (empty - with_robot).min(axis=-1)
+    assert ((darker > 8) & (darker < 70) & ~orange(with_robot)).sum() > 200
+
+
+def test_the_view_can_be_chosen():
+    from coursekit.view.picture import draw
+
+    scene = Scene()
+    scene.robot(robots.kuka_kr6())
+    views = {name: draw(scene, 240, 160, name) for name in scene.views}
+    assert len(set(views.values())) == 4
