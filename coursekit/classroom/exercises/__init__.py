@@ -1,0 +1,1 @@
+"""The public half of every exercise, one module for each notebook."""

@@ -1,0 +1,179 @@
+"""Pictures of notebook 01: the half steps of a DH row, the frames of two conventions, near-parallel axes.
+
+Every function shows one figure and returns None.
+"""
+
+import numpy as np
+
+from coursekit.kinematics import dh
+from coursekit.view.paint import PALETTE
+
+INK = "#2B3038"
+CROWD = 0.1  # m: frames nearer to each other than this are fanned out
+
+
+def half_steps(a=0.5, alpha=0.9, d=0.4, theta=0.7):
+    """One row of a standard table: frame i - 1, the frame i' after the turn and shift on z, and frame i."""
+    first = dh.Table([0.0], [0.0], [d], [theta]).fk([0.0])
+    last = dh.Table([a], [alpha], [d], [theta]).fk([0.0])
+    (ax,) = _axes_3d(1, (6.4, 4.6))
+    for T, length in ((np.eye(4), 0.62), (last, 0.34)):  # the two joint axes
+        ends = T[:3, 3] + np.outer([-0.5 * length, length], T[:3, 2])
+        ax.plot(*ends.T, ls=(0, (6, 3)), lw=1, color=_color("axis"))
+    for T in (np.eye(4), first, last):
+        _triad(ax, T, 0.16)
+    for ends, name, color in (
+        ([np.zeros(3), first[:3, 3]], "d", "trace"),
+        ([first[:3, 3], last[:3, 3]], "a", "accent"),
+    ):
+        ends = np.array(ends)
+        ax.plot(*ends.T, lw=2.5, color=_color(color), alpha=0.8)
+        ax.text(
+            *(ends.mean(axis=0) + [0.03, 0, 0.03]), name, fontsize=13, style="italic", color=_color(color)
+        )
+    _arc(ax, np.eye(4), 0, theta, 0.12, "θ", "trace")
+    tilted = np.eye(4)
+    tilted[:3, :3], tilted[:3, 3] = first[:3, [1, 2, 0]], last[:3, 3]  # alpha turns about x
+    _arc(ax, tilted, np.pi / 2, np.pi / 2 + alpha, 0.12, "α", "accent")
+    _limits(ax, [(-0.15, 0.65), (-0.2, 0.6), (-0.2, 0.75)], ticks=(0, 0.25, 0.5), unit="m")
+    ax.view_init(20, -18)
+    _name(ax, [np.eye(4), first, last], ["i−1", "i′", "i"], 0.2)
+    _show()
+
+
+def placements(robot, fan=(0.0, 0.0, 0.32)):
+    """The frames of the standard and of the modified table of one robot at theta = 0, side by side."""
+    zero = np.zeros(robot.n)
+    axes = _axes_3d(2, (9.6, 5.0))
+    for ax, table, axis in zip(axes, (robot.standard_dh, robot.modified_dh), ("i + 1", "i"), strict=True):
+        frames = np.concatenate([table.base[None], table.frames(zero)])
+        _scene(ax, robot, zero, frames, [str(i) for i in range(robot.n + 1)], np.array(fan))
+        ax.set_title(f"{table.convention}: frame i on axis {axis}", fontsize=11)
+    _show()
+
+
+def poses(robot, *thetas, fan=(0.3, 0.0, 0.1)):
+    """The modified frames and the tool frame of a robot in several configurations, side by side."""
+    names = [*(str(i + 1) for i in range(robot.n)), "tool"]
+    axes = _axes_3d(len(thetas), (9.6, 6.2))
+    for ax, theta in zip(axes, thetas, strict=True):
+        frames = np.concatenate([robot.modified_dh.frames(theta), robot.fk(theta)[None]])
+        _scene(ax, robot, theta, frames, names, np.array(fan))
+        ax.set_title(f"θ₁ = {np.degrees(theta[0]):.0f} deg", fontsize=11)
+    _show()
+
+
+def near_parallel(tilt, d, change, marked):
+    """How far the common normal runs away, and how little the screw changes, over the tilt of an axis."""
+    import matplotlib.pyplot as plt
+
+    _, ax = plt.subplots(figsize=(6.4, 3.4), layout="constrained")
+    ax.loglog(tilt, np.abs(d), "-", color=_color("accent"), marker="o", ms=4, label="DH: |d| [m]")
+    ax.loglog(tilt, change, "--", color=_color("trace"), marker="s", ms=4, label="screw: |change of S|")
+    ax.axvline(marked, color=INK, lw=0.8, ls=":")
+    ax.set(xlabel="tilt of axis 3 [rad]", ylabel="size [m], [rad]")
+    ax.grid(alpha=0.3)
+    ax.legend(frameon=False)
+    _show()
+
+
+# -- parts of the pictures -------------------------------------------------------------------------------
+
+
+def _show():
+    import matplotlib.pyplot as plt
+
+    plt.show()
+
+
+def _color(name):
+    return f"#{PALETTE[name]:06X}"
+
+
+def _axes_3d(count, size):
+    import matplotlib.pyplot as plt
+
+    _, axes = plt.subplots(
+        1, count, figsize=size, subplot_kw={"projection": "3d"}, squeeze=False, layout="constrained"
+    )
+    for ax in axes[0]:
+        ax.set_proj_type("ortho")
+        for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
+            axis.pane.set_facecolor("#F6F7F9")
+            axis._axinfo["grid"].update(color="#E1E5EA", linewidth=0.6)
+    return axes[0]
+
+
+def _limits(ax, limits, ticks, unit):
+    for letter, (low, high) in zip("xyz", limits, strict=True):
+        ax.set(**{f"{letter}lim": (low, high), f"{letter}label": f"{letter} [{unit}]"})
+        inside = [t for t in ticks if low <= t <= high]
+        ax.set(**{f"{letter}ticks": inside})
+    ax.set_box_aspect([high - low for low, high in limits], zoom=0.95)
+    ax.tick_params(labelsize=8, pad=-2)
+
+
+def _triad(ax, T, length):
+    """One frame: three lines in the house colours, lettered."""
+    for k, letter in enumerate("xyz"):
+        ax.plot(*np.array([T[:3, 3], _along(T, k, length)]).T, lw=2, color=_color(letter))
+        ax.text(
+            *_along(T, k, 1.3 * length), letter, fontsize=8, color=_color(letter), ha="center", va="center"
+        )
+
+
+def _along(T, k, length):
+    """The point at this length on axis k of frame T."""
+    return T[:3, 3] + length * T[:3, k]
+
+
+def _name(ax, frames, names, length):
+    """Write {name} beside each frame, on the side where the picture has most room."""
+    e, a = np.radians([ax.elev, ax.azim])
+    right, up = (
+        np.array([-np.sin(a), np.cos(a), 0]),
+        np.array([-np.sin(e) * np.cos(a), -np.sin(e) * np.sin(a), np.cos(e)]),
+    )
+    flat = np.stack([right, up], axis=1)
+    taken = [_along(T, k, s * length) @ flat for T in frames for k in range(3) for s in (0, 0.5, 1, 1.4)]
+    turn = np.arange(0, 2 * np.pi, np.pi / 12)
+    ring = length * (0.8 * np.outer(np.cos(turn), right) + 0.65 * np.outer(np.sin(turn), up))
+    for T, name in zip(frames, names, strict=True):
+        places = T[:3, 3] + ring
+        room = np.linalg.norm((places @ flat)[:, None] - np.array(taken), axis=-1).min(axis=1)
+        best = places[room.argmax()]
+        taken.append(best @ flat)
+        ax.text(*best, f"{{{name}}}", fontsize=10, weight="bold", color=INK, ha="center", va="center")
+
+
+def _arc(ax, T, start, stop, radius, name, color):
+    """An angle in the xy plane of frame T, from start to stop."""
+    t = np.linspace(start, stop, 31)
+    points = T[:3, 3] + radius * (np.outer(np.cos(t), T[:3, 0]) + np.outer(np.sin(t), T[:3, 1]))
+    ax.plot(*points.T, lw=1.8, color=_color(color))
+    middle = T[:3, 3] + 1.4 * (points[15] - T[:3, 3])
+    ax.text(*middle, name, fontsize=12, color=_color(color), ha="center", va="center")
+
+
+def _scene(ax, robot, theta, frames, names, fan):
+    """The arm as a line through its joints, its axes dashed, and frames, fanned out where they crowd."""
+    links = np.concatenate([robot.modified_dh.frames(theta), robot.fk(theta)[None]])
+    points = np.concatenate([np.zeros((1, 3)), links[:, :3, 3]])
+    ax.plot(*points.T, lw=8, color="#D5DAE1", solid_capstyle="round", solid_joinstyle="round")
+    for T in links[:-1]:
+        ends = T[:3, 3] + np.outer([-0.11, 0.11], T[:3, 2])
+        ax.plot(*ends.T, lw=1.2, ls=(0, (4, 2)), color=_color("axis"))
+    shown, crowds = frames.copy(), []  # a crowd: [place of its first frame, how many stand there]
+    for T, moved in zip(frames, shown, strict=True):
+        crowd = next((c for c in crowds if np.linalg.norm(c[0] - T[:3, 3]) < CROWD), None)
+        if crowd is None:
+            crowds.append(crowd := [T[:3, 3], 0])
+        moved[:3, 3] += crowd[1] * fan
+        crowd[1] += 1
+        ax.plot(*np.array([T[:3, 3], moved[:3, 3]]).T, lw=1, ls=":", color=INK)
+        _triad(ax, moved, 0.11)
+    points = np.concatenate([points, shown[:, :3, 3]])
+    low, high = points.min(axis=0) - 0.16, points.max(axis=0) + 0.16
+    _limits(ax, list(zip(low, high, strict=True)), ticks=np.arange(-2, 2.1, 0.5), unit="m")
+    ax.view_init(16, -62)
+    _name(ax, shown, names, 0.11)

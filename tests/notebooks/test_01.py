@@ -1,0 +1,186 @@
+"""Notebook 01: its numbers against the golden data, computed by the notebook's own cells."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from coursekit import dh, lie, robots
+from coursekit.classroom import notebook
+from tests.kinematics.conftest import load
+
+PATH = Path(__file__).resolve().parents[2] / "notebooks" / "01_dh_vs_poe.ipynb"
+CELLS = {cell["id"]: cell for cell in notebook.read(PATH)["cells"]}
+SOURCES = load("numbers_of_the_sources")
+REPORT = SOURCES["TPK4170 report"]
+
+
+def in_mm(T):
+    return np.asarray(T) * np.where(np.arange(16).reshape(4, 4) % 4 == 3, [[1000], [1000], [1000], [1]], 1)
+
+
+def printed(cell_id):
+    """What a cell printed when it was stored."""
+    return "".join(
+        "".join(output["text"]) for output in CELLS[cell_id]["outputs"] if output["output_type"] == "stream"
+    )
+
+
+def numbers(text):
+    return [float(x) for x in re.findall(r"(?<![\w.])-?\d+(?:\.\d+)?(?![\w.])", text)]
+
+
+@pytest.fixture(scope="module")
+def solved():
+    """What the set-up cell and the exercises' solutions define."""
+    return notebook.references(PATH)
+
+
+@pytest.fixture
+def run():
+    """run("cell-id", ...) -> the namespace after these cells, the set-up cell before them."""
+
+    def run_cells(*ids, **known):
+        namespace = {"__name__": "notebook", **known}
+        for cell_id in ("setup", *ids):
+            notebook.run_cell(CELLS[cell_id]["source"], f"01_dh_vs_poe, {cell_id}", namespace)
+        return namespace
+
+    return run_cells
+
+
+def standard_rows(table):
+    return np.column_stack([table.a, table.alpha, table.d, table.theta])
+
+
+@pytest.mark.parametrize("name", ["kuka_kr6", "abb_irb1200", "kawasaki_s030", "puma560", "franka_panda"])
+def test_the_solutions_agree_with_the_robots(solved, name):
+    robot = robots.all()[name]
+    theta = np.random.default_rng(7).uniform(-np.pi, np.pi, robot.n)
+    table, modified = robot.standard_dh, robot.modified_dh
+    T = solved.fk_dh(standard_rows(table), theta, table.base, table.tool)
+    np.testing.assert_allclose(T, robot.fk(theta), rtol=0, atol=2e-15)
+    np.testing.assert_allclose(solved.fk_poe(robot.S, robot.M, theta), robot.fk(theta), rtol=0, atol=2e-15)
+    S = solved.screws_from_dh(standard_rows(modified), modified.base)
+    np.testing.assert_allclose(S, robot.S, rtol=0, atol=1e-14)
+
+
+def test_a_slide_goes_straight(solved):
+    T = solved.screw_exp(np.array([0, 0, 0, 0.6, 0, 0.8]), 0.5)
+    np.testing.assert_allclose(T, [[1, 0, 0, 0.3], [0, 1, 0, 0], [0, 0, 1, 0.4], [0, 0, 0, 1]], atol=1e-15)
+
+
+@pytest.mark.parametrize("key", ["eq3.8", "eq3.9", "eq3.10"])
+def test_the_three_matrices_of_figure_3_6(key):
+    theta = {"eq3.8": np.zeros(6), "eq3.9": [0, 0, -np.pi / 2, np.pi / 2, 0, 0], "eq3.10": np.ones(6)}[key]
+    T = in_mm(robots.kuka_kr6().standard_dh.fk(theta))
+    np.testing.assert_allclose(T, REPORT["FK"][key], rtol=0, atol=1e-9)
+
+
+def test_the_stored_matrices_are_those_of_figure_3_6():
+    stored = printed("figure-3-6").split("theta =")[1:]
+    for block, key in zip(stored, ("eq3.8", "eq3.9", "eq3.10"), strict=True):
+        lines = block.splitlines()[1:5]
+        np.testing.assert_allclose([numbers(line) for line in lines], REPORT["FK"][key], atol=5.1e-4)
+        assert "below 2e-15" in block
+
+
+def test_frames_of_the_kr6():
+    standard, modified = printed("table-shift").split("MODIFIED")
+    origins = "(25, 0, 400) (480, 0, 400) (480, 0, 435) (900, 0, 435) (900, 0, 435) (900, 0, 435)"
+    assert origins in standard
+    assert "(0, 0, 400) (25, 0, 400) (480, 0, 400) (900, 0, 435) (900, 0, 435) (900, 0, 435)" in modified
+
+
+def test_screws_from_the_table_are_eq_3_5():
+    S, M = robots.kuka_kr6().modified_dh.screws()
+    np.testing.assert_allclose(np.vstack([S[:3], 1000 * S[3:]]), REPORT["S"], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(in_mm(M), REPORT["M_flange"], rtol=0, atol=1e-12)
+    lines = printed("screws-of-table").splitlines()[1:7]
+    np.testing.assert_array_equal([numbers(line) for line in lines], REPORT["S"])
+
+
+def test_the_wrong_reading():
+    table = robots.kuka_kr6().standard_dh
+    columns = table.a, table.alpha, table.d, table.theta
+    wrong = dh.Table(*columns, "modified", base=table.base, tool=table.tool).fk(np.zeros(6))
+    assert 1000 * np.linalg.norm((wrong - table.fk(np.zeros(6)))[:3, 3]) == pytest.approx(1099.3, abs=0.05)
+    assert "1099.3 mm" in printed("wrong-reading")
+
+
+def test_nearly_parallel_axes():
+    kr6, tilt = robots.kuka_kr6(), 1e-3
+    w = np.array([-np.sin(tilt), np.cos(tilt), 0])
+    tilted = np.concatenate([w, -np.cross(w, [0.48, 0, 0.4])])
+    a, _, foot, _ = dh.common_normal(kr6.S[:, 1], tilted)
+    assert a == pytest.approx(0, abs=1e-12)
+    assert foot[1] == pytest.approx(455, rel=1e-5)
+    assert np.linalg.norm(tilted - kr6.S[:, 2]) == pytest.approx(1.077e-3, rel=1e-3)
+    assert "d = 455.0 m" in printed("near-parallel")
+
+
+def test_m_passes_one_exponential_after_the_other():
+    lines = printed("identity-steps").splitlines()
+    assert len(lines) == 7
+    assert all("below 2e-15" in line for line in lines)
+
+
+def test_three_arms_agree():
+    lines = printed("agreement").splitlines()[2:]
+    assert [line.count("below 2e-15") for line in lines] == [3, 3, 3]
+
+
+def test_the_abb_by_its_three_tables(run):
+    namespace = run("abb-tables", abb=robots.abb_irb1200(), rows_mm=run("table-shift")["rows_mm"])
+    theta = np.random.default_rng(3).uniform(-np.pi, np.pi, (50, 6))
+    T = robots.abb_irb1200().fk(theta)
+    np.testing.assert_allclose(namespace["read"].fk(theta), T, rtol=0, atol=2e-15)
+    np.testing.assert_allclose(namespace["P"].sum(axis=0) / 1000, T[0, :3, 3] * 0 + [0.533, 0, 0.8891])
+
+
+def test_the_panda_turned_by_60_degrees():
+    panda = robots.franka_panda()
+    np.testing.assert_allclose(panda.M, SOURCES["Panda assignment"]["M"], rtol=0, atol=1e-15)
+    turned = panda.modified_dh.frames(np.pi / 3 * np.eye(7)[0])
+    expected = lie.exp6([0, 0, np.pi / 3, 0, 0, 0]) @ panda.modified_dh.frames(np.zeros(7))
+    np.testing.assert_allclose(turned, expected, rtol=0, atol=1e-15)
+    assert "(44.0, 76.2, 926.0) mm" in printed("figure-panda")
+
+
+def test_the_kawasaki_in_its_drawn_pose():
+    text = printed("kawasaki")
+    T = np.array([numbers(line) for line in text.splitlines()[-4:]])
+    np.testing.assert_array_equal(T, [[0, 0, 1, 1395], [0, -1, 0, 0], [1, 0, 0, 1550], [0, 0, 0, 1]])
+    rows = [numbers(line) for line in text.splitlines()[2:8]]
+    assert [row[3] for row in rows] == [680, 0, 0, 1080, 0, 165]  # d, the flange in row 6
+    assert [row[5:] for row in rows] == [
+        [-180, 180],
+        [-50, 195],
+        [-65, 225],
+        [-360, 360],
+        [35, 325],
+        [-360, 360],
+    ]
+
+
+@pytest.fixture
+def hunt(run):
+    return lambda *more: run("bug-hunt-code", "bug-hunt-check", *more, abb=robots.abb_irb1200())
+
+
+def test_the_faulty_code_is_as_wrong_as_the_projects(hunt):
+    """The project's error runs from 324 to 1230 (standard) and 229 to 869 (modified), on another curve."""
+    namespace = hunt()
+    least, most, _ = namespace["difference"](namespace["sdh_check"])
+    assert (least, most) == (pytest.approx(324, abs=3), pytest.approx(1230, abs=3))
+    least, most, _ = namespace["difference"](namespace["mdh_check"])
+    assert (least, most) == (pytest.approx(229, abs=3), pytest.approx(869, abs=10))
+
+
+def test_three_and_five_repairs_make_it_right(hunt):
+    rows = hunt("bug-hunt-repairs")["rows"]
+    assert [row[0] for row in rows] == ["sdh_check"] * 3 + ["mdh_check"] * 5
+    assert [row[-1] for row in rows] == [False, False, True] + [False] * 4 + [True]
