@@ -1,0 +1,139 @@
+"""Typical mistakes of notebook 02."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from coursekit.classroom.mistakes import Solved
+
+right = Solved("nb02")
+
+
+def home_of_the_wrist(lengths):  # TPK4170 report: 900 for 980
+    return right.home_pose(lengths * [1, 1, 1, 1, 0])
+
+
+def home_with_flange_along_z(lengths):  # RPI mini project 3: P_6T = L5 e_z
+    T = right.home_pose(lengths)
+    T[:3, 3] += lengths[4] * np.array([-1, 0, 1])
+    return T
+
+
+def home_with_column_along_x(lengths):  # RPI mini project 3: first row of the PoE table
+    T = right.home_pose(lengths)
+    T[:3, 3] += lengths[0] * np.array([1, 0, -1])
+    return T
+
+
+def home_without_elbow(lengths):
+    return right.home_pose(lengths * [1, 1, 0, 1, 1])
+
+
+def screw_with_plus(w, q):
+    return right.screw_axis(w, q) * [1, 1, 1, -1, -1, -1]
+
+
+def screw_v_first(w, q):
+    return np.roll(right.screw_axis(w, q), 3)
+
+
+def screw_not_unit(w, q):
+    return right.screw_axis(w, q) * np.linalg.norm(w)
+
+
+def screw_with_q(w, q):
+    return np.concatenate([right.screw_axis(w, q)[:3], q])
+
+
+def axis_v_cross_w(S):
+    w, q, pitch = right.axis_of(S)
+    return w, -q, pitch
+
+
+def axis_without_pitch(S):
+    w, q, _ = right.axis_of(S)
+    return w, q, 0.0
+
+
+def axis_through_v(S):
+    w, _, pitch = right.axis_of(S)
+    return w, S[3:], pitch
+
+
+def axis_with_length_of_v(S):
+    w, q, _ = right.axis_of(S)
+    return w, q, np.linalg.norm(S[3:])
+
+
+def adjoint_v_first(T):
+    return np.roll(right.adjoint(T), (3, 3), axis=(0, 1))
+
+
+def adjoint_R_hat_p(T):
+    Ad, R = right.adjoint(T), T[:3, :3]
+    Ad[3:, :3] = R @ Ad[3:, :3] @ R.T
+    return Ad
+
+
+def adjoint_of_inverse(T):
+    return np.linalg.inv(right.adjoint(T))
+
+
+def adjoint_without_p(T):
+    Ad = right.adjoint(T)
+    Ad[3:, :3] = 0
+    return Ad
+
+
+def body_by_ad_of_M(S, M):
+    return right.adjoint(M) @ S
+
+
+def body_by_transpose(S, M):
+    return right.adjoint(M).T @ S
+
+
+def body_with_minus_p(S, M):
+    inverse = np.linalg.inv(M)
+    inverse[:3, 3] = -M[:3, 3]
+    return right.adjoint(inverse) @ S
+
+
+def body_only_shifted(S, M):
+    shift = np.eye(4)
+    shift[:3, 3] = -M[:3, 3]
+    return right.adjoint(shift) @ S
+
+
+WRONG = {
+    "home_pose": {
+        "wrist": home_of_the_wrist,
+        "flange_along_z": home_with_flange_along_z,
+        "column_along_x": home_with_column_along_x,
+        "without_elbow": home_without_elbow,
+    },
+    "screw_axis": {
+        "plus": screw_with_plus,
+        "v_first": screw_v_first,
+        "not_unit": screw_not_unit,
+        "q_itself": screw_with_q,
+    },
+    "axis_of": {
+        "v_cross_w": axis_v_cross_w,
+        "no_pitch": axis_without_pitch,
+        "v_for_q": axis_through_v,
+        "whole_v": axis_with_length_of_v,
+    },
+    "adjoint": {
+        "v_first": adjoint_v_first,
+        "R_hat_p": adjoint_R_hat_p,
+        "inverse": adjoint_of_inverse,
+        "no_p": adjoint_without_p,
+    },
+    "body_screws": {
+        "ad_of_M": body_by_ad_of_M,
+        "transposed": body_by_transpose,
+        "minus_p": body_with_minus_p,
+        "only_shifted": body_only_shifted,
+    },
+}

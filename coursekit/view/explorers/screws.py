@@ -1,0 +1,91 @@
+"""Notebook 02: one joint after the other at the home pose, from the axis and a point on it to the screw."""
+
+import numpy as np
+
+from coursekit.kinematics import dh, lie, robots
+from coursekit.view import text
+from coursekit.view.controls import Choice, Slider
+from coursekit.view.panel import Panel
+from coursekit.view.scene import Scene
+
+
+def explore_screws(robot=None, height=470):
+    """Open the explorer of screws: a joint axis, a point q on it, v = -w x q, and the column of S or B.
+
+    The arm stands at zero and only the chosen joint turns. The point q can be slid along its axis, and the
+    screw can be looked at from the space frame, from the tool, or from where the last two axes meet.
+
+    Parameters
+    ----------
+    robot : Robot, optional
+        An arm with revolute joints; the KUKA KR6 where none is given. ValueError for a sliding joint.
+    """
+    robot = robots.kuka_kr6() if robot is None else robot
+    if "prismatic" in robot.joint_types:
+        raise ValueError(f"{robot.name} has a prismatic joint: this explorer shows revolute joints only")
+    frames = _frames(robot)
+    zero = np.zeros(robot.n)
+    origins = robot.link_frames(zero)[:, :3, 3]
+    scene = Scene()
+    scene.robot(robot, zero)
+    scene.look("robot", solid=True, skeleton=True)
+
+    def place(values):
+        """Index of the joint, its screw in the space frame and the point q, and the frame that looks on."""
+        i = values["joint"]
+        S = robot.S[:, i]
+        nearest = np.cross(S[:3], S[3:])
+        q = nearest + S[:3] * (S[:3] @ (origins[i] - nearest) + values["slide"])
+        return i, S, q, values["frame"]
+
+    def update(values):
+        i, S, q, (letter, T) = place(values)
+        scene.set_theta("robot", values["turn"] * np.eye(robot.n)[i])
+        scene.screw_axis("/ck/axis", S, label=f"S{i + 1}", at=q)
+        scene.point("/ck/q", q, "q", color="accent")
+        scene.frame("/ck/seen", T, letter=letter, size=0.14 * scene.size)
+        scene.line("/ck/lever", T[:3, 3], q)
+        scene.arrow("/ck/v", T[:3, 3], S[3:] + np.cross(S[:3], T[:3, 3]), color="trace", label="v")
+
+    def describe(values):
+        i, S, q, (letter, T) = place(values)
+        seen = lie.adjoint(lie.inverse(T)) @ S
+        q_seen = (lie.inverse(T) @ [*q, 1])[:3]
+        name = "S" if letter == "s" else "B"
+        tool = robot.fk(values["turn"] * np.eye(robot.n)[i])[:3, 3]
+        return "\n".join(
+            [
+                f"joint {i + 1} of {robot.name}, seen from frame {{{letter}}}",
+                f"direction w = {text.row(seen[:3])}    point q = {text.millimetres(q_seen)}",
+                f"v = -w x q = {text.row(1000 * seen[3:], 1)} mm per rad, of the point at {{{letter}}}",
+                f"column {i + 1} of {name} = {text.row(seen)}    (w; v), v in metres",
+                f"tool at {text.millimetres(tool)} after {text.degrees(values['turn'])}",
+            ]
+        )
+
+    return Panel(
+        "screws",
+        scene,
+        [
+            Choice("joint", {f"joint {i + 1}": i for i in range(robot.n)}, start="joint 2"),
+            Choice("frame", frames, label="seen from"),
+            Slider("slide", 0.0, -0.3, 0.3, unit="mm", label="q along the axis"),
+            Slider("turn", 0.0, -np.pi, np.pi, unit="deg", label="turn this joint"),
+        ],
+        update,
+        describe,
+        title="Explorer of screws",
+        height=height,
+    )
+
+
+def _frames(robot):
+    """Label -> (letter, pose at zero) of the frames from which a screw can be seen."""
+    frames = {"space frame: S": ("s", np.eye(4)), "flange frame: B": ("b", robot.M)}
+    if robot.n > 2:
+        _, _, on_last, on_before = dh.common_normal(robot.S[:, -1], robot.S[:, -2])
+        if np.linalg.norm(on_last - on_before) < 1e-9:
+            wrist = robot.M.copy()
+            wrist[:3, 3] = on_last
+            frames["wrist frame: B of the wrist"] = ("w", wrist)
+    return frames
