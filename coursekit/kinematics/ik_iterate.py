@@ -1,0 +1,268 @@
+"""The engine of the numeric inverse kinematics: from a configuration to the Jacobian and the error, and on.
+
+The methods are written with J_b and e = log(T_sb^-1 T_sd). Here both are taken along the axes of the space
+frame, about the tool point: diag(R, R) J_b and diag(R, R) e. No step notices: J^+ e, J^T e and
+J^T (J J^T + k^2 I)^-1 e stay as they are when J and e are turned together.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import accumulate
+
+import numpy as np
+
+from . import lie
+
+CHUNK = 2048  # targets per block: the working set stays in the cache
+NEAR_PI = 1e-6  # rad; closer than this to half a turn the rotation vector is taken from the quaternion
+TINY = 1e-200  # keeps 0/0 out of quotients whose limit is known
+SETTLED = 1e-6  # `closest` ends where a step promises less than this share of the score
+DOWNHILL = 100  # steps of `closest`
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """One pose of an iteration: theta (n,), error (2,) in rad and m, and how long the step there was."""
+
+    theta: np.ndarray
+    error: np.ndarray
+    step: float
+
+
+@dataclass(eq=False)
+class State:
+    """Where N targets stand: the best pose of each so far. score = angle^2 + distance^2 (or distance^2)."""
+
+    theta: np.ndarray  # (N, n)
+    error: np.ndarray  # (N, 2) rad, m
+    score: np.ndarray  # (N,) infinite while there is none
+    converged: np.ndarray  # (N,) bool
+    iterations: np.ndarray  # (N,) int
+    nearing: np.ndarray  # (N,) bool: the last pose is the best
+    diverged: np.ndarray  # (N,) bool: numbers overflowed
+
+    @classmethod
+    def new(cls, N, n):
+        """Nothing found yet."""
+        theta, error, score = np.full((N, n), np.nan), np.full((N, 2), np.nan), np.full(N, np.inf)
+        return cls(
+            theta, error, score, np.zeros(N, bool), np.zeros(N, int), np.zeros(N, bool), np.zeros(N, bool)
+        )
+
+    def take(self, rows, other, which=slice(None)):
+        """Put `other`, where `which`, in place of the targets `rows`; iterations add up."""
+        for key, mine in vars(self).items():
+            theirs = getattr(other, key)[which]
+            mine[rows] = mine[rows] + theirs if key == "iterations" else theirs
+
+
+def iterate(robot, goals, guess, rule, max_iterations, tol, rows="all", history=None):
+    """theta <- theta + rule(J, e) from guess (N, n) towards goals (N, 4, 4). -> State.
+
+    rows "linear": J and e without the rotation. history: a list that collects the Steps of a single target.
+    """
+    state = State.new(*guess.shape)
+    used = slice(0 if rows == "all" else 3, 6)
+    with np.errstate(all="ignore"):
+        if len(goals) == 1:
+            _iterate_one(robot, goals[0], guess[0], rule, max_iterations, tol, used, state, history)
+        else:
+            for start in range(0, len(goals), CHUNK):
+                block = slice(start, start + CHUNK)
+                part = State(*(array[block] for array in vars(state).values()))
+                _iterate_block(robot, goals[block], guess[block], rule, max_iterations, tol, used, part)
+    return state
+
+
+def _iterate_block(robot, goals, theta, rule, max_iterations, tol, used, state):
+    """Many targets: those that are done leave the block."""
+    active, goals = np.arange(len(goals)), _arrays(goals)
+    for k in range(max_iterations + 1):
+        Jt, omega, v, _, error = look(robot, theta, goals)
+        error = np.stack(error, axis=-1)
+        counted = error[:, used.start // 3 :]
+        score = (counted * counted).sum(axis=-1)
+        nearer = score < state.score[active]
+        best = active[nearer]
+        state.theta[best], state.error[best], state.score[best] = theta[nearer], error[nearer], score[nearer]
+        state.nearing[active], state.iterations[active] = nearer, k
+        done, lost = (counted < tol).all(axis=-1), ~np.isfinite(score)
+        state.converged[active[done]], state.diverged[active[lost]] = True, True
+        go_on = ~(done | lost)
+        if k == max_iterations or not go_on.any():
+            return
+        e = np.stack([*omega, *v], axis=-1)[:, used]
+        J = np.swapaxes(Jt, -1, -2)[:, used]
+        if not go_on.all():
+            active, theta, J, e = active[go_on], theta[go_on], J[go_on], e[go_on]
+            goals = goals[..., go_on]
+        theta = theta + rule(J, e)
+
+
+def _iterate_one(robot, goal, theta, rule, max_iterations, tol, used, state, history):
+    """One target: the same in plain numbers, on which numpy's calls would cost more than the arithmetic."""
+    goal, best, step = _numbers(goal), math.inf, 0.0
+    for k in range(max_iterations + 1):
+        Jt, omega, v, _, error = look(robot, theta, goal)
+        counted = error[used.start // 3 :]
+        score = sum(x * x for x in counted)
+        if history is not None:
+            history.append(Step(theta, np.array(error), step))
+        state.iterations[0], state.nearing[0] = k, score < best
+        if score < best:
+            best, state.theta[0], state.error[0], state.score[0] = score, theta, error, score
+        state.converged[0], state.diverged[0] = max(counted) < tol, not math.isfinite(score)
+        if state.converged[0] or state.diverged[0] or k == max_iterations:
+            return
+        change = rule(Jt.T[used], np.array([*omega, *v][used]))
+        theta, step = theta + change, math.sqrt(change @ change)
+
+
+def closest(robot, goals, theta, tol, rows="all"):
+    """Downhill from theta (N, n) to a minimum of angle^2 + distance^2 (rows "linear": distance^2). -> State.
+
+    Levenberg-Marquardt: a damped least squares step counts only if it brings the tool nearer; the damping
+    falls after each that does and rises after each that does not. So it never cycles.
+    """
+    used = slice(0 if rows == "all" else 3, 6)
+    goals = _arrays(goals)
+
+    def see(theta):
+        Jt, omega, _, gap, error = look(robot, theta, goals)
+        e = np.stack([*omega, *gap], axis=-1)[:, used]
+        return theta, Jt[..., used], e, np.stack(error, axis=-1), (e * e).sum(axis=-1)
+
+    hinges = np.array([kind == "revolute" for kind in robot.joint_types])
+    theta = np.where(
+        hinges, np.remainder(theta + np.pi, 2 * np.pi) - np.pi, theta
+    )  # far turns have few digits
+    here, damping2 = see(theta), np.full(len(theta), 1e-2)
+    with np.errstate(all="ignore"):
+        for _ in range(DOWNHILL):
+            theta, Jt, e, error, score = here
+            H = np.swapaxes(Jt, -1, -2) @ Jt + damping2[:, None, None] * np.eye(Jt.shape[-1])
+            step = (Jt @ np.linalg.solve(H, e[..., None]))[..., 0]
+            gain = (step * (Jt @ e[..., None])[..., 0]).sum(axis=-1)  # what the step promises, to first order
+            done = (error[:, used.start // 3 :] < tol).all(axis=-1)
+            if (done | (gain < SETTLED * score)).all():
+                break
+            there = see(theta + step)
+            good = there[-1] < score
+            here = tuple(
+                np.where(good.reshape(-1, *[1] * (a.ndim - 1)), a, b)
+                for a, b in zip(there, here, strict=True)
+            )
+            damping2 = damping2 * np.where(good, 0.25, 4.0)
+    state = State.new(*theta.shape)
+    state.theta[:], state.error[:], state.score[:], state.converged[:] = theta, error, score, done
+    return state
+
+
+def look(robot, theta, goal):
+    """J^T (N, n, 6) and what is left to do: omega, v, gap (3 each) and (angle, distance).
+
+    theta (N, n) and goal = `_arrays` of N poses. omega and v are log(T_sb^-1 T_sd), gap is the way from the
+    tool to the goal, all along the space frame. For one target, theta (n,) and goal = `_numbers` of its pose,
+    arrays (N,) become plain numbers: the formulas are the same, `math` takes the place of numpy.
+    """
+    one, n = theta.ndim == 1, theta.shape[-1]
+    start, constants = _links(robot)
+    t = theta.reshape(-1, n).T
+    basis = np.empty((*t.shape, 4))
+    basis[..., 0], basis[..., 1], basis[..., 2], basis[..., 3] = 1, np.sin(t), np.cos(t), t
+    E = (basis @ constants).reshape(*t.shape, 4, 4)
+    F = np.empty((n + 1, *E.shape[1:]))  # link frames with z along the joint axis, and the tool frame
+    F[0] = start
+    for i in range(n):
+        np.matmul(F[i], E[i], out=F[i + 1])
+    *frames, (x, y, z, p) = _numbers(F[:, 0]) if one else _arrays(F)
+
+    # Column i of J: (z, z cross (p - q)) with z and origin q of the frame on axis i; (0, z) where it slides.
+    J = np.array([[*z, *_cross(z, _minus(p, q))] for _, _, z, q in frames])
+    if not one:
+        J = np.ascontiguousarray(np.moveaxis(J, -1, 0))
+    for i in np.flatnonzero(robot._slides) if any(robot._slides) else ():
+        along = robot._slides[i] * J[..., i, :3]
+        if robot.joint_types[i] == "revolute":
+            J[..., i, 3:] += along
+        else:
+            J[..., i, 3:], J[..., i, :3] = along, 0
+    return J, *_error((x, y, z, p), goal, math if one else np)
+
+
+def _error(tool, goal, m):
+    """omega, v, gap, (angle, distance) between two poses given by their columns; m: math or numpy.
+
+    R = R_d R_b^T turns tool to goal. x cross x_d + y cross y_d + z cross z_d is 2 sin(angle) times its axis
+    (Siciliano et al., eq. 3.95), and x . x_d + y . y_d + z . z_d = 1 + 2 cos(angle) its trace.
+    v = p - 1/2 w x p + D w x (w x p) with D = (1 - t/2 cot t/2) / t^2 (Lynch & Park, eq. 3.92).
+    """
+    (x, y, z, p), (x_d, y_d, z_d, p_d) = tool, goal
+    twice_sine = _plus(_plus(_cross(x, x_d), _cross(y, y_d)), _cross(z, z_d))
+    length = m.sqrt(_dot(twice_sine, twice_sine))
+    trace = _dot(x, x_d) + _dot(y, y_d) + _dot(z, z_d)
+    angle = m.atan2(length, trace - 1)
+    k = (angle + 0.5 * TINY) / (length + TINY)
+    omega = _times(k, twice_sine)
+    half_turn = angle > math.pi - NEAR_PI
+    if half_turn if m is math else half_turn.any():  # twice_sine has lost its direction
+        omega = _from_quaternion(half_turn, omega, tool, goal)
+    gap = _minus(p_d, p)
+    once = _cross(omega, gap)
+    twice = _cross(omega, once)
+    # t/2 cot t/2 = t/2 (1 + cos t) / sin t
+    D = (1 - 0.5 * k * (trace + 1)) / (angle * angle + TINY)
+    v = _plus(gap, _plus(_times(-0.5, once), _times(D, twice)))
+    return omega, v, gap, (angle, m.sqrt(_dot(gap, gap)))
+
+
+def _from_quaternion(where, omega, tool, goal):
+    """omega from lie.log3, which is exact at half a turn too, for the targets `where`."""
+    R_b, R_d = (
+        np.array(columns[:3]).reshape(3, 3, -1).T for columns in (tool, goal)
+    )  # transposed, one per target
+    exact = lie.log3(np.swapaxes(R_d, -1, -2) @ R_b).T
+    return exact[:, 0].tolist() if where is True else np.where(where, exact, omega)
+
+
+def _arrays(T):
+    """Columns x, y, z, p of poses (..., N, 4, 4), each as 3 arrays (N,)."""
+    return np.ascontiguousarray(np.moveaxis(T[..., :3, :], (-1, -2, -3), (-3, -2, -1)))
+
+
+def _numbers(T):
+    """Columns x, y, z, p of poses (..., 4, 4), each as 3 plain numbers."""
+    return np.swapaxes(T[..., :3, :], -1, -2).tolist()
+
+
+def _dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _cross(a, b):
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def _plus(a, b):
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+def _times(k, a):
+    return k * a[0], k * a[1], k * a[2]
+
+
+def _minus(a, b):
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+@lru_cache(maxsize=64)  # of a frozen Robot, by identity
+def _links(robot):
+    """A_1 (4, 4) and constants (n, 4, 16) of A_i^-1 e^[S_i]t A_(i+1): frames at zero with z along the axes.
+
+    A_(n+1) is M: A_1 and all these links multiply to T. Constants of (1, sin t, cos t, t), as in Robot.
+    """
+    frames = [*accumulate(robot._axis_steps, np.matmul), robot.M]
+    K = robot._exponentials.reshape(robot.n, 4, 4, 4)
+    links = [lie.inverse(a) @ k @ b for a, k, b in zip(frames[:-1], K, frames[1:], strict=True)]
+    return frames[0], np.array(links).reshape(robot.n, 4, 16)
