@@ -1,0 +1,47 @@
+"""What a person looks at: explorers, the 3D viewer and the pictures that stand in for it.
+
+One line of a notebook opens an explorer:
+
+    from coursekit import robots, view
+    view.explore(robots.kuka_kr6())
+
+Everything here is imported when it is first used: `from coursekit import view` alone loads no widget code.
+"""
+
+import importlib
+
+_WHERE = {
+    "explore": "explorers.conventions",
+    "explore_screws": "explorers.screws",
+    "explore_inverse": "explorers.inverse",
+    "explore_singularities": "explorers.singularities",
+    "explore_jacobians": "explorers.jacobians",
+    "explore_path": "explorers.path",
+    "Panel": "panel",
+    "Viewer": "viewer",
+    "Scene": "scene",
+    "Slider": "controls",
+    "Sliders": "controls",
+    "JointSlider": "controls",
+    "joint_sliders": "controls",
+    "Choice": "controls",
+    "Toggle": "controls",
+    "Action": "controls",
+    "Plot": "plots",
+    "Table": "controls",
+}
+_MODULES = ("controls", "panel", "page", "plots", "scene", "text", "viewer")
+
+__all__ = sorted([*_WHERE, *_MODULES])
+
+
+def __getattr__(name):
+    if name in _WHERE:
+        return getattr(importlib.import_module(f"coursekit.view.{_WHERE[name]}"), name)
+    if name in _MODULES:
+        return importlib.import_module(f"coursekit.view.{name}")
+    raise AttributeError(f"coursekit.view has no {name!r}; it has: {', '.join(__all__)}")
+
+
+def __dir__():
+    return __all__

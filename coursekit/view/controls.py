@@ -1,0 +1,307 @@
+"""Controls and read-outs of an explorer: slider, choice, toggle, action, table, text line.
+
+A control has a `name`, the key of its value in the dictionary an explorer's functions get. Sliders show
+degrees and millimetres and give radians and metres (`.si`): the inside of coursekit knows nothing else.
+
+A control sends its value only when a person changes it. (A stock FloatSlider also sends a rounded copy of
+its value back when it is first drawn: 0.4 becomes 0.39999..., and in "Run All" that arrives late, over what a
+later cell set.)
+"""
+
+from pathlib import Path
+
+import anywidget
+import numpy as np
+import traitlets
+
+_STATIC = Path(__file__).parent / "static"
+_SCRIPT = (_STATIC / "controls.js").read_text(encoding="utf-8")
+_SHOWN_PER_SI = {"deg": 180 / np.pi, "mm": 1000.0}  # every other unit is shown as it is
+
+
+class Control(anywidget.AnyWidget):
+    """What all controls share: a name, a label and a stable one-line repr."""
+
+    _esm = _SCRIPT
+    _css = _STATIC / "controls.css"
+    kind = traitlets.Unicode().tag(sync=True)
+    label = traitlets.Unicode().tag(sync=True)
+
+    def __init__(self, name, label=None, **traits):
+        self.name = name
+        super().__init__(kind=type(self).kind_name, label=name if label is None else label, **traits)
+
+    def get(self):
+        """The value as an explorer's functions see it."""
+        return self.value
+
+    def put(self, value):
+        """Set what `get` gives."""
+        self.value = value
+
+    def reset(self):
+        self.put(self.initial)
+
+    def __repr__(self):
+        return f"{type(self).__name__}({self.name}: {self.value})"
+
+
+class Slider(Control):
+    """A slider with name, unit, marked limits and a box to type a number into.
+
+    Parameters
+    ----------
+    name : str
+    start, low, high : float
+        First value and ends of the slider, in SI units (radians for unit "deg", metres for "mm").
+    unit : str
+        Shown unit: "deg" and "mm" convert, any other is only a label.
+    step : float, optional
+        Step of the arrow keys and of dragging, in the shown unit; Shift takes a tenth of it. Typing is free.
+    limits : (low, high), optional
+        Limits to mark inside the slider, in SI units; a value outside them is marked as such.
+
+    >>> elbow = Slider("elbow", start=0.5, low=-1, high=1, unit="deg")
+    >>> round(elbow.value, 3), elbow.si
+    (28.648, 0.5)
+    """
+
+    kind_name = "slider"
+    value = traitlets.Float().tag(sync=True)
+    live = traitlets.Bool(False).tag(sync=True)  # still being dragged: more values will come
+    min = traitlets.Float().tag(sync=True)
+    max = traitlets.Float().tag(sync=True)
+    step = traitlets.Float().tag(sync=True)
+    start = traitlets.Float().tag(sync=True)
+    limits = traitlets.List().tag(sync=True)
+    unit = traitlets.Unicode().tag(sync=True)
+    digits = traitlets.Int().tag(sync=True)
+    shape = traitlets.Int(0).tag(sync=True)  # counts changes of everything but the value
+
+    def __init__(self, name, start=0.0, low=-1.0, high=1.0, unit="", step=None, limits=None, label=None):
+        self._shown_per_si, self._exact = 1.0, (0.0, 0.0)
+        super().__init__(name, label)
+        self.fit(start, low, high, unit, step, limits)
+
+    def fit(self, start, low, high, unit="", step=None, limits=None):
+        """Give the slider another range (as in the constructor) and put it at its start."""
+        name = self.name
+        if not low < high:
+            raise ValueError(f"slider {name!r}: low must be below high, got {low} and {high}")
+        self._shown_per_si = _SHOWN_PER_SI.get(unit, 1.0)
+        low, high = min(low, start), max(high, start)
+        shown = [self._shown(x) for x in (low, high)]
+        step = step or {"deg": 1.0, "mm": 10.0}.get(unit, (high - low) / 100)
+        with self.hold_sync():
+            self.min, self.max = -np.inf, np.inf  # so that the old range does not clip the new value
+            self.value = self.start = self._shown(start)
+            self.min, self.max = shown
+            self.step, self.unit = float(step), unit
+            self.limits = [self._shown(x) for x in limits] if limits is not None else []
+            self.digits = max(2, int(np.ceil(1 - np.log10(step))))
+            self.shape += 1
+        self.initial = float(start)
+        self._exact = (self.value, float(start))
+
+    @property
+    def si(self):
+        """The value in SI units; exactly what was `put`, as long as nobody moved the slider since."""
+        shown, si = self._exact
+        return si if self.value == shown else self.value / self._shown_per_si
+
+    def get(self):
+        return self.si
+
+    def put(self, value):
+        value = float(value)
+        shown = self._shown(value)
+        if not self.min - 1e-9 <= shown <= self.max + 1e-9:
+            ends = f"[{self.min:g}, {self.max:g}] {self.unit}".rstrip()
+            raise ValueError(f"slider {self.name!r} goes over {ends}, got {shown:g}")
+        self.value = shown
+        self._exact = (self.value, value)
+
+    def _shown(self, si):
+        return float(np.round(si * self._shown_per_si, 10)) + 0.0  # 170.00000000000003 degrees is 170
+
+    @traitlets.validate("value")
+    def _inside(self, proposal):
+        low, high = self.min, self.max
+        return float(np.clip(proposal["value"], low, high)) if low < high else proposal["value"]
+
+    def __repr__(self):
+        return f"{type(self).__name__}({self.name}: {np.round(self.value, 3) + 0:g} {self.unit})"
+
+
+class JointSlider(Slider):
+    """The slider of one joint of a robot: its limits are the ends, degrees or millimetres its unit."""
+
+    def __init__(self, robot, joint, start=None):
+        Control.__init__(self, f"theta{joint + 1}", f"\N{GREEK SMALL LETTER THETA}{joint + 1}")
+        self.fit_joint(robot, joint, start)
+
+    def fit_joint(self, robot, joint, start=None):
+        revolute = robot.joint_types[joint] == "revolute"
+        free = np.pi if revolute else 1.0  # where the data sheet has no limit
+        low, high = (float(limit[joint]) for limit in (robot.q_min, robot.q_max))
+        low, high = (low if np.isfinite(low) else -free), (high if np.isfinite(high) else free)
+        start = float(robot.home[joint] if start is None else start)
+        self.fit(start, low, high, "deg" if revolute else "mm", limits=(low, high))
+
+
+class Sliders:
+    """Several sliders whose values are one vector."""
+
+    def __init__(self, name, sliders):
+        self.name = name
+        self.sliders = list(sliders)
+        self.count = len(self.sliders)  # those in use
+
+    @property
+    def used(self):
+        return self.sliders[: self.count]
+
+    def get(self):
+        return np.array([slider.get() for slider in self.used])
+
+    def put(self, values):
+        values = np.asarray(values, float)
+        if values.shape != (self.count,):
+            raise ValueError(f"{self.name!r} takes {self.count} numbers, got shape {values.shape}")
+        for slider, value in zip(self.used, values, strict=True):
+            slider.put(value)
+
+    def reset(self):
+        for slider in self.used:
+            slider.reset()
+
+    def __repr__(self):
+        return f"{type(self).__name__}({self.name}: {self.count})"
+
+
+class JointSliders(Sliders):
+    """One slider per joint; the value is theta (n,), in radians and metres."""
+
+    def __init__(self, robot, start=None, name="theta"):
+        start = robot.home if start is None else start
+        super().__init__(name, [JointSlider(robot, i, start[i]) for i in range(robot.n)])
+
+    def fit(self, robot):
+        """Serve another robot, from its home pose. At most as many joints as sliders were made."""
+        if robot.n > len(self.sliders):
+            raise ValueError(f"{self.name!r} has {len(self.sliders)} sliders, {robot.name} needs {robot.n}")
+        self.count = robot.n
+        for i, slider in enumerate(self.sliders):
+            slider.layout.display = None if i < robot.n else "none"
+            if i < robot.n:
+                slider.fit_joint(robot, i)
+
+
+def joint_sliders(robot, start=None, name="theta"):
+    """One slider per joint of a robot; the value is theta (n,), in radians and metres."""
+    return JointSliders(robot, start, name)
+
+
+class Choice(Control):
+    """A list to choose from.
+
+    Parameters
+    ----------
+    options : list of str, or dict of label -> object
+        With a dict the value is the object behind the chosen label.
+    start : str, optional
+        The label chosen first (default: the first).
+    """
+
+    kind_name = "choice"
+    value = traitlets.Unicode().tag(sync=True)
+    options = traitlets.List().tag(sync=True)
+
+    def __init__(self, name, options, start=None, label=None):
+        self.meaning = dict(options) if isinstance(options, dict) else {text: text for text in options}
+        labels = list(self.meaning)
+        self.initial = labels[0] if start is None else start
+        if self.initial not in self.meaning:
+            raise ValueError(f"choice {name!r} has no {start!r}; it has: {', '.join(labels)}")
+        super().__init__(name, label, options=labels, value=self.initial)
+
+    def get(self):
+        return self.meaning[self.value]
+
+    def put(self, value):
+        if value not in self.meaning:
+            raise ValueError(f"choice {self.name!r} has no {value!r}; it has: {', '.join(self.meaning)}")
+        self.value = value
+
+    def reset(self):
+        pass  # what was chosen stays chosen: reset moves the arm back, it does not change the arm
+
+
+class Toggle(Control):
+    """A box to tick; the value is a bool."""
+
+    kind_name = "toggle"
+    value = traitlets.Bool().tag(sync=True)
+
+    def __init__(self, name, label=None, start=False):
+        self.initial = bool(start)
+        super().__init__(name, label, value=self.initial)
+
+
+class Action(Control):
+    """A button; `act(panel)` is called under the panel's lock, then the panel is drawn again."""
+
+    kind_name = "action"
+
+    def __init__(self, name, label=None, act=None):
+        self.act = act
+        super().__init__(name, label)
+
+    def get(self):
+        return None
+
+    def put(self, value):
+        raise ValueError(f"action {self.name!r} holds no value")
+
+    def reset(self):
+        pass
+
+    def __repr__(self):
+        return f"Action({self.name})"
+
+
+class Table(Control):
+    """A table of text below the picture; with `selectable` a row can be chosen, and its index is the value.
+
+    `fill(values)` returns (header, rows): lists of text; format numbers by `coursekit.view.text`.
+    """
+
+    kind_name = "table"
+    value = traitlets.Int(-1).tag(sync=True)
+    header = traitlets.List().tag(sync=True)
+    rows = traitlets.List().tag(sync=True)
+    selectable = traitlets.Bool(False).tag(sync=True)
+
+    def __init__(self, name, fill, label=None, selectable=False, start=-1):
+        self.fill = fill
+        self.initial = start
+        super().__init__(name, label, selectable=selectable, value=start)
+
+    def refresh(self, values):
+        header, rows = self.fill(values)
+        with self.hold_sync():
+            self.header = [str(cell) for cell in header]
+            self.rows = [[str(cell) for cell in row] for row in rows]
+
+    def __repr__(self):
+        return f"Table({self.name}: {len(self.rows)} rows)"
+
+
+class TextLine(Control):
+    """The numbers beside the picture, in words; read aloud when they come to rest."""
+
+    kind_name = "text"
+    value = traitlets.Unicode().tag(sync=True)
+
+    def __repr__(self):
+        return f"TextLine({self.value.splitlines()[0] if self.value else ''})"

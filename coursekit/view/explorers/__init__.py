@@ -1,0 +1,1 @@
+"""The explorers of the six notebooks: small compositions of a scene, controls, a text and plots."""

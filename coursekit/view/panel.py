@@ -1,0 +1,288 @@
+"""An explorer is a Panel: a scene in 3D, controls beside it, the numbers in words below.
+
+    import numpy as np
+    from coursekit import robots
+    from coursekit.view import Choice, Panel, Scene, Toggle, joint_sliders
+
+    def explore_reach(robot):
+        scene = Scene()
+        scene.robot(robot, robot.home)
+
+        def update(values):                       # called at every change, before the picture is sent
+            scene.set_theta("robot", values["theta"])
+            scene.show("/ck/robot/tool", values["tool"])
+
+        def text(values):                         # the line below the picture: numbers for everyone
+            x, y, z = robot.fk(values["theta"])[:3, 3]
+            return f"{robot.name}: tool at ({x:.3f}, {y:.3f}, {z:.3f}) m"
+
+        controls = [joint_sliders(robot), Toggle("tool", "tool frame", start=True)]
+        return Panel("reach", scene, controls, update, text)
+
+`values` maps the name of each control to its value: radians and metres, never degrees. All callbacks run
+under one lock, because slider messages arrive in more than one thread. Nothing is printed.
+"""
+
+import contextlib
+import threading
+
+import ipywidgets
+import numpy as np
+
+from coursekit.view import controls as parts
+from coursekit.view.viewer import Viewer, mimebundle
+
+_open = {}  # (name, cell) -> the panel shown there now
+
+
+class Panel(ipywidgets.VBox):
+    """A 3D scene with controls.
+
+    Parameters
+    ----------
+    name : str
+        Running the same cell again closes the panel of this name that it showed before.
+    scene : Scene
+    controls : list
+        Slider, Sliders (`joint_sliders(robot)`), Choice, Toggle, Action: the column beside the picture.
+    update : function(values), optional
+        Changes the scene. An Action, a Table and other controls may be set from it with `put`.
+    text : function(values) -> str, optional
+        The text below the picture; the first line should say the pose.
+    below : list, optional
+        Plot and Table, under the picture.
+    title : str, optional
+        What the stored one-line text calls this explorer (default: name).
+    height : int
+        Of the picture, pixels.
+    """
+
+    def __init__(
+        self,
+        name,
+        scene,
+        controls=(),
+        update=None,
+        text=None,
+        below=(),
+        title=None,
+        height=430,
+        quality="auto",
+    ):
+        self.name = name
+        self.title = name if title is None else title
+        self.scene = scene
+        self.below = list(below)
+        self._update = update
+        self._text = text
+        self._lock = threading.RLock()
+        self._quiet = False
+        self._stale = []  # plots that wait until a drag ends
+        self._controls = {
+            control.name: control for control in (*controls, *below) if hasattr(control, "name")
+        }
+        if len(self._controls) < len(controls):
+            raise ValueError(f"panel {name!r}: two controls have the same name")
+
+        if update is not None:
+            update(self.values)
+        self.viewer = Viewer(scene, height=height, quality=quality)
+        self.line = parts.TextLine("text")
+        self.line.value = self._words()
+        super().__init__(layout=ipywidgets.Layout(width="100%"))
+        column = self._column(controls)
+        self.viewer.layout.flex, self.viewer.layout.min_width = "4 1 420px", "300px"
+        flow = ipywidgets.Layout(
+            display="flex", flex_flow="row wrap", align_items="flex-start", grid_gap="12px"
+        )
+        top = ipywidgets.Box([*([column] if controls else []), self.viewer], layout=flow)
+        self.children = [top, self.line, *self._bottom()]
+        for output in self.below:
+            output.refresh(self.values) if hasattr(output, "refresh") else None
+        for control in self._widgets():
+            self._listen(control)
+        self._replace_previous()
+
+    # -- values
+
+    @property
+    def values(self):
+        """Name -> value of every control, in radians and metres."""
+        return {name: control.get() for name, control in self._controls.items() if control.get() is not None}
+
+    def set(self, **values):
+        """Set controls from the program: one update for all of them, exactly these values.
+
+        `panel.set(theta=[0, 0, 0, 0, 0, 0], tool=False)`
+        """
+        for name in values:
+            if name not in self._controls:
+                known = ", ".join(self._controls)
+                raise ValueError(f"panel {self.name!r} has no control {name!r}; it has: {known}")
+        with self._lock, self._silence():
+            for name, value in values.items():
+                self._controls[name].put(value)
+        self.refresh()
+
+    def reset(self):
+        """Every control back to where it started."""
+        with self._lock, self._silence():
+            for control in self._controls.values():
+                control.reset()
+        self.refresh()
+        self.viewer.frame = -1  # a motion that rests somewhere gives way to the robot's own pose
+
+    def refresh(self, live=False):
+        """Update scene, text and plots from the controls; `live`: more values will follow at once."""
+        with self._lock:
+            try:
+                values = self.values
+                with self._silence():  # what update puts into controls is part of this update
+                    if self._update is not None:
+                        self._update(values)
+                        values = self.values
+                self.viewer.sync(self.scene)
+                self.line.value = self._words()
+                for output in self.below:
+                    if live and hasattr(output, "has_time") and not output.has_time():
+                        if output not in self._stale:
+                            self._stale.append(output)
+                    elif hasattr(output, "refresh"):
+                        output.refresh(values)
+                        self._stale = [other for other in self._stale if other is not output]
+            except Exception as error:
+                self.line.value = f"{type(error).__name__}: {error}"
+                raise
+
+    def play(self, poses, fps=30.0, loop=False, texts=None, autoplay=True):
+        """Play transforms (N, k, 4, 4) of `scene.moving` in the page; see `Viewer.play`."""
+        with self._lock:
+            self.viewer.play(poses, fps, loop, texts, autoplay)
+
+    def play_theta(self, thetas, name="robot", fps=30.0, loop=False, texts=None, autoplay=True):
+        """Play joint values (N, n) of the robot `name`; the scene itself stays as it is."""
+        with self._lock:
+            before, poses = self.scene.theta(name), []
+            for theta in np.asarray(thetas, float):
+                self.scene.set_theta(name, theta)
+                poses.append(self.scene.pose())
+            self.scene.set_theta(name, before)
+            self.viewer.play(np.array(poses), fps, loop, texts, autoplay)
+
+    # -- what a notebook stores
+
+    def to_html(self):
+        """The scene as a page that needs neither kernel nor network, as one string."""
+        return self.viewer.to_html()
+
+    def __repr__(self):
+        return f"{self.title}: {self.scene.text()}"
+
+    def _repr_mimebundle_(self, **_options):
+        return mimebundle(self, repr(self), self.scene, self.viewer.height)
+
+    def close(self):
+        """Close every widget of the panel: nothing of it stays in the kernel or the page."""
+        for key in [key for key, panel in _open.items() if panel is self]:
+            del _open[key]
+        _close_tree(self)
+
+    # -- making it
+
+    def _column(self, controls):
+        rows, toggles = [], []
+        for control in controls:
+            if isinstance(control, parts.Toggle | parts.Action):
+                toggles.append(control)
+                control.layout.width = "auto"
+            else:
+                rows += control.sliders if isinstance(control, parts.Sliders) else [control]
+        reset = parts.Action("reset", act=lambda panel: panel.reset())
+        reset.layout.width = "auto"
+        flow = ipywidgets.Layout(display="flex", flex_flow="row wrap", grid_gap="2px 14px", width="100%")
+        self._reset_button = reset
+        return ipywidgets.VBox(
+            [*rows, ipywidgets.Box([*toggles, reset], layout=flow)],
+            layout=ipywidgets.Layout(flex="1 1 300px", min_width="260px", max_width="460px"),
+        )
+
+    def _bottom(self):
+        if not self.below:
+            return []
+        for output in self.below:
+            output.layout.width = "auto"
+        flow = ipywidgets.Layout(
+            display="flex", flex_flow="row wrap", align_items="flex-start", grid_gap="18px"
+        )
+        return [ipywidgets.Box(self.below, layout=flow)]
+
+    def _words(self):
+        return self._text(self.values) if self._text is not None else self.scene.text()
+
+    def _widgets(self):
+        for control in self._controls.values():
+            yield from control.sliders if isinstance(control, parts.Sliders) else [control]
+        yield from (output for output in self.below if not hasattr(output, "name"))
+        if hasattr(self, "_reset_button"):
+            yield self._reset_button
+
+    def _listen(self, widget):
+        if widget.has_trait("value"):
+            widget.observe(self._value_changed, "value")
+        if widget.has_trait("live"):
+            widget.observe(self._drag_ended, "live")
+        if isinstance(widget, parts.Action) or getattr(widget, "clickable", False):
+            widget.on_msg(self._message)
+
+    def _value_changed(self, change):
+        with self._lock:
+            if not self._quiet:
+                self.refresh(live=getattr(change.owner, "live", False))
+
+    def _drag_ended(self, change):
+        with self._lock:
+            if not change.new and self._stale:
+                self.refresh()
+
+    def _message(self, widget, content, _buffers):
+        with self._lock:
+            if content.get("type") == "press" and widget.act is not None:
+                with self._silence():
+                    widget.act(self)
+                self.refresh()
+            elif content.get("type") == "click":
+                point = widget.point(content["x"], content["y"])
+                if point is not None:
+                    widget.on_click(*point)
+
+    @contextlib.contextmanager
+    def _silence(self):
+        before, self._quiet = self._quiet, True
+        try:
+            yield
+        finally:
+            self._quiet = before
+
+    def _replace_previous(self):
+        key = (self.name, _cell())
+        if key in _open:
+            _open[key].close()
+        _open[key] = self
+
+
+def _cell():
+    """The id of the notebook cell that runs now, where the front end tells it."""
+    with contextlib.suppress(Exception):
+        from IPython import get_ipython
+
+        return get_ipython().kernel.get_parent()["metadata"]["cellId"]
+    return None
+
+
+def _close_tree(widget):
+    for child in getattr(widget, "children", ()):
+        _close_tree(child)
+    for attribute in ("layout", "style"):
+        if widget.has_trait(attribute):
+            getattr(widget, attribute).close()
+    ipywidgets.Widget.close(widget)

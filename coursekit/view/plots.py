@@ -1,0 +1,80 @@
+"""Plots beside the 3D view: a matplotlib figure drawn to a picture, with a caption that says what to see."""
+
+import io
+import time
+
+import anywidget
+import numpy as np
+import traitlets
+
+from coursekit.view import controls
+
+
+class Plot(anywidget.AnyWidget):
+    """A matplotlib picture below the 3D view, drawn again when the values changed.
+
+    Parameters
+    ----------
+    draw : function(figure, values) -> None
+        Draws into an empty matplotlib Figure (`ax = figure.subplots()`).
+    caption : str
+        What to see, as a sentence; also the alternative text of the picture.
+    size : (float, float)
+        Inches.
+    on_click : function(x, y), optional
+        Called with the point of a click, in the data coordinates of the figure's first axes; clicks outside
+        them do not count. What it sets with `Panel.set` draws the panel again.
+    """
+
+    _esm = controls._SCRIPT
+    _css = controls._STATIC / "controls.css"
+    kind = traitlets.Unicode("picture").tag(sync=True)
+    png = traitlets.Bytes().tag(sync=True)
+    alt = traitlets.Unicode().tag(sync=True)
+    caption = traitlets.Unicode().tag(sync=True)
+    width = traitlets.Int().tag(sync=True)
+    clickable = traitlets.Bool(False).tag(sync=True)
+
+    def __init__(self, draw, caption, size=(5.2, 3.2), on_click=None):
+        self.draw = draw
+        self.on_click = on_click
+        self._size = size
+        self._figure = None
+        self._cost = 0.0  # seconds of the last drawing
+        self._drawn_at = 0.0
+        super().__init__(
+            alt=caption, caption=caption, width=round(96 * size[0]), clickable=on_click is not None
+        )
+
+    def refresh(self, values):
+        """Draw the figure for these values and send the picture."""
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+
+        begun = time.monotonic()
+        self._figure = Figure(figsize=self._size, dpi=144, layout="constrained")
+        FigureCanvasAgg(self._figure)
+        self.draw(self._figure, values)
+        picture = io.BytesIO()
+        self._figure.savefig(picture, format="png", dpi=144)
+        self.png = picture.getvalue()
+        self._drawn_at = time.monotonic()
+        self._cost = self._drawn_at - begun
+
+    def has_time(self):
+        """While a slider is dragged: would drawing now leave most of the time to the robot?"""
+        return time.monotonic() - self._drawn_at > 4 * self._cost
+
+    def point(self, x, y):
+        """Data coordinates of a click at fractions (x, y) of the picture, or None outside the first axes."""
+        if self._figure is None or not self._figure.axes:
+            return None
+        axes = self._figure.axes[0]
+        pixel = np.array([x, y]) * self._figure.get_size_inches() * self._figure.dpi
+        inside = axes.transAxes.inverted().transform(pixel)
+        if not np.all((inside >= 0) & (inside <= 1)):
+            return None
+        return tuple(float(v) for v in axes.transData.inverted().transform(pixel))
+
+    def __repr__(self):
+        return f"Plot({self.caption})"

@@ -1,0 +1,121 @@
+// What the page adds to meshcat's scene: labels that face the reader, ghosts, and named views of the camera.
+
+const splitPath = (path) => path.split("/").filter((name) => name);
+
+// Coordinates of the world (z up, metres) in the frame of meshcat's camera (y up).
+const yUp = ([x, y, z]) => [x, z, -y];
+
+// HTML spans, placed after every frame: crisp at any size, readable in both themes, always facing the reader.
+function makeLabels(THREE, viewer, pane, renderer) {
+  const layer = document.createElement("div");
+  layer.className = "ck-labels";
+  layer.setAttribute("aria-hidden", "true"); // the text line says the same in words
+  pane.append(layer);
+  const point = new THREE.Vector3();
+  let labels = [];
+  const visible = (object) => {
+    for (let o = object; o; o = o.parent) if (!o.visible) return false;
+    return true;
+  };
+  return {
+    set(list) {
+      labels = list.map(({ path, pos, text, cls }) => {
+        const span = document.createElement("span");
+        span.className = `ck-label ${cls || ""}`;
+        span.textContent = text;
+        return { span, pos, path: splitPath(path) };
+      });
+      layer.replaceChildren(...labels.map((label) => label.span));
+    },
+    place() {
+      const { width, height } = renderer.size(); // not the pane's: that is 0 while JupyterLab moves the cell about
+      for (const { span, pos, path } of labels) {
+        const object = viewer.scene_tree.find(path).object;
+        point.set(...pos).applyMatrix4(object.matrixWorld).project(viewer.camera);
+        const shown = point.z < 1 && visible(object);
+        span.style.display = shown ? "" : "none";
+        const x = ((point.x + 1) / 2) * width, y = ((1 - point.y) / 2) * height;
+        if (shown) span.style.transform = `translate(-50%, -50%) translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+      }
+    },
+  };
+}
+
+// Translucent copies of a robot. They share its geometry, so nothing is sent. Each first writes only depth and then
+// its colour: overlapping parts of one ghost do not add up, and its insides stay hidden.
+function makeGhosts(THREE, viewer) {
+  let drawn = [];
+  const materials = (color, opacity) => {
+    const offset = { polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 4, transparent: true };
+    const depth = new THREE.MeshBasicMaterial({ ...offset, colorWrite: false });
+    const paint = new THREE.MeshLambertMaterial({ ...offset, opacity, emissiveIntensity: 0.35 });
+    paint.color.setHex(color).convertSRGBToLinear();
+    paint.emissive.copy(paint.color);
+    return [depth, paint];
+  };
+  return function draw(ghosts) {
+    for (const path of drawn) viewer.delete_path(splitPath(path));
+    drawn = ghosts.map((ghost) => ghost.path);
+    ghosts.forEach(({ src, path, n, color, opacity }, g) => {
+      const links = viewer.scene_tree.find(splitPath(src)).children;
+      const passes = materials(color, opacity);
+      for (let k = 1; k <= n; k += 1) { // link 0, the base, is there already
+        const solid = links[k] && links[k].children.solid && links[k].children.solid.children["<object>"];
+        if (!solid) continue;
+        const copy = new THREE.Group();
+        solid.object.traverse((part) => {
+          if (!part.isMesh) return;
+          part.updateMatrix();
+          passes.forEach((material, pass) => {
+            const mesh = new THREE.Mesh(part.geometry, material);
+            mesh.matrixAutoUpdate = false;
+            mesh.matrix.copy(part.matrix);
+            mesh.renderOrder = 10 + 4 * g + pass;
+            copy.add(mesh);
+          });
+        });
+        viewer.set_object([...splitPath(path), String(k), "ghost"], copy);
+      }
+    });
+  };
+}
+
+// Named views and keys for the camera. meshcat's set_camera leaks its controls: move the one camera instead.
+function makeCamera(THREE, viewer, pane) {
+  const { camera, controls } = viewer;
+  const spherical = new THREE.Spherical(), offset = new THREE.Vector3();
+  let shown = null; // the named view, as long as nobody turned it
+  controls.addEventListener("start", () => (shown = null));
+  const place = () => {
+    const aspect = pane.clientWidth / pane.clientHeight;
+    if (!shown || !aspect) return;
+    controls.target.set(...yUp(shown.target));
+    offset.set(...yUp(shown.position)).sub(controls.target).multiplyScalar(Math.max(1, 1.25 / aspect)); // narrow: step back
+    camera.position.copy(controls.target).add(offset);
+    controls.update();
+    viewer.set_dirty();
+  };
+  return {
+    lens(size) {
+      camera.fov = 32;
+      camera.near = 0.02 * size;
+      camera.far = 30 * size;
+    },
+    show(where) {
+      shown = where;
+      place();
+    },
+    fit: place, // after a change of the pane's size
+    // turn by angles (radians), zoom by a factor
+    turn(azimuth, elevation, zoom = 1) {
+      shown = null;
+      spherical.setFromVector3(offset.copy(camera.position).sub(controls.target));
+      spherical.theta += azimuth;
+      spherical.phi = Math.min(Math.PI - 0.02, Math.max(0.02, spherical.phi + elevation));
+      spherical.radius *= zoom;
+      camera.position.copy(controls.target).add(offset.setFromSpherical(spherical));
+      controls.update();
+      viewer.set_dirty();
+    },
+  };
+}

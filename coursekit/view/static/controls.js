@@ -1,0 +1,227 @@
+// The controls and read-outs of an explorer, in plain HTML so that keyboard and screen reader work as everywhere.
+// One module for all of them: the widget's `kind` picks the maker. A value is sent only when a person changes it,
+// never when a control is drawn, so drawing cannot disturb what the kernel has set.
+
+let serial = 0;
+
+function element(tag, attributes = {}, ...children) {
+  const node = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+  node.append(...children);
+  return node;
+}
+
+// JupyterLab and Notebook take arrow keys and letters for themselves, unless an element says no.
+const own = { "data-lm-suppress-shortcuts": "true" };
+const keepKeys = (node) => node.addEventListener("keydown", (event) => event.stopPropagation());
+
+const trim = (value, digits) => String(Number(value.toFixed(digits)) + 0); // "+ 0": never "-0"
+
+function slider(model, el) {
+  let draw = () => {};
+  const build = () => {
+    el.replaceChildren();
+    draw = buildSlider(model, el);
+  };
+  model.on("change:value", () => draw());
+  model.on("change:shape", build); // another robot: other limits
+  build();
+}
+
+function buildSlider(model, el) {
+  const id = `ck-slider-${(serial += 1)}`;
+  const [min, max, step] = ["min", "max", "step"].map((name) => model.get(name));
+  const label = model.get("label"), unit = model.get("unit"), digits = model.get("digits");
+  const spoken = { deg: "degrees", mm: "millimetres", m: "metres" }[unit] || unit;
+  const range = element("input", { ...own, id, type: "range", role: "slider", class: "ck-range", min, max, step: "any",
+    "aria-valuemin": min, "aria-valuemax": max });
+  const box = element("input", { ...own, type: "number", class: "ck-number", min, max, step, "aria-label": `${label}, ${spoken}` });
+  const name = element("label", { class: "ck-name", for: id }, label);
+  const ends = element("div", { class: "ck-ends", "aria-hidden": "true" });
+  const track = element("div", { class: "ck-track" }, range, ends);
+  const row = element("div", { class: "ck-slider" }, name, track, box, element("span", { class: "ck-unit" }, unit));
+  el.append(row);
+
+  // The limits of the joint, marked where they are: at the ends, or inside when the slider goes beyond them.
+  const limits = model.get("limits");
+  const at = (value) => (100 * (value - min)) / (max - min || 1);
+  for (const value of [min, max, ...limits]) {
+    if (value !== min && value !== max && !limits.includes(value)) continue;
+    const isLimit = limits.includes(value);
+    if (!isLimit && limits.length) continue;
+    const mark = element("span", { class: isLimit ? "ck-mark ck-limit" : "ck-mark" }, trim(value, 0));
+    mark.style.left = `${at(value)}%`;
+    if (isLimit) mark.title = "joint limit";
+    if (![...ends.children].some((other) => other.style.left === mark.style.left)) ends.append(mark);
+  }
+
+  let dragging = false;
+  const draw = () => {
+    const value = model.get("value");
+    if (!dragging) range.value = value;
+    range.setAttribute("aria-valuenow", trim(value, digits));
+    const outside = limits.length && (value < limits[0] - 1e-9 || value > limits[1] + 1e-9);
+    range.setAttribute("aria-valuetext", `${trim(value, digits)} ${spoken}${outside ? ", outside the joint's limits" : ""}`);
+    row.classList.toggle("ck-outside", Boolean(outside));
+    if (document.activeElement !== box || !box.ckEdited) box.value = trim(value, digits);
+  };
+  const send = (value, live) => {
+    const inside = Math.min(max, Math.max(min, value));
+    model.set("value", Number(inside.toPrecision(15)));
+    model.set("live", live);
+    model.save_changes();
+    draw();
+  };
+  const snap = (value, grid) => Math.round(value / grid) * grid;
+
+  range.addEventListener("pointerdown", () => (dragging = true));
+  range.addEventListener("input", () => {
+    const value = Number(range.value);
+    send(value - min < 1e-9 || max - value < 1e-9 ? value : snap(value, step), true);
+  });
+  range.addEventListener("change", () => {
+    dragging = false;
+    send(model.get("value"), false);
+  });
+  range.addEventListener("keydown", (event) => {
+    const jump = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
+    const end = { Home: min, End: max }[event.key];
+    event.stopPropagation();
+    if (jump === undefined && end === undefined) return;
+    event.preventDefault();
+    const grid = event.shiftKey ? step / 10 : step;
+    send(end === undefined ? Number((model.get("value") + jump * grid).toFixed(9)) : end, event.repeat);
+  });
+  range.addEventListener("keyup", () => model.get("live") && send(model.get("value"), false));
+  box.addEventListener("input", () => (box.ckEdited = true));
+  box.addEventListener("change", () => {
+    box.ckEdited = false;
+    const value = Number(box.value);
+    if (box.value !== "" && Number.isFinite(value)) send(value, false);
+    draw();
+  });
+  keepKeys(box);
+  name.title = "double click: reset";
+  name.addEventListener("dblclick", () => send(model.get("start"), false));
+  draw();
+  return draw;
+}
+
+function choice(model, el) {
+  const select = element("select", { ...own, class: "ck-select" });
+  const draw = () => {
+    select.replaceChildren(...model.get("options").map((text) => element("option", { value: text }, text)));
+    select.value = model.get("value");
+  };
+  select.addEventListener("change", () => {
+    model.set("value", select.value);
+    model.save_changes();
+  });
+  keepKeys(select);
+  el.append(element("label", { class: "ck-choice" }, element("span", { class: "ck-name" }, model.get("label")), select));
+  model.on("change:value", draw);
+  model.on("change:options", draw);
+  draw();
+}
+
+function toggle(model, el) {
+  const box = element("input", { ...own, type: "checkbox" });
+  const draw = () => (box.checked = model.get("value"));
+  box.addEventListener("change", () => {
+    model.set("value", box.checked);
+    model.save_changes();
+  });
+  keepKeys(box);
+  el.append(element("label", { class: "ck-toggle" }, box, element("span", {}, model.get("label"))));
+  model.on("change:value", draw);
+  draw();
+}
+
+function action(model, el) {
+  const button = element("button", { ...own, type: "button", class: "ck-button" }, model.get("label"));
+  button.addEventListener("click", () => model.send({ type: "press" }));
+  keepKeys(button);
+  el.append(button);
+}
+
+// Text that changes with the pose. Shown at once; read aloud only when it has come to rest.
+function text(model, el) {
+  const shown = element("div", { class: "ck-text" });
+  const spoken = element("div", { class: "ck-spoken", role: "status", "aria-live": "polite" });
+  let timer = null;
+  const draw = () => {
+    shown.textContent = model.get("value");
+    clearTimeout(timer);
+    timer = setTimeout(() => (spoken.textContent = model.get("value")), 600);
+  };
+  shown.setAttribute("aria-hidden", "true"); // a screen reader gets the other copy, once
+  el.append(shown, spoken);
+  model.on("change:value", draw);
+  draw();
+  spoken.textContent = model.get("value");
+}
+
+function table(model, el) {
+  const body = element("tbody"), head = element("thead");
+  const caption = element("caption", {}, model.get("label"));
+  const group = `ck-table-${(serial += 1)}`;
+  const draw = () => {
+    const focused = document.activeElement && body.contains(document.activeElement);
+    const selectable = model.get("selectable"), value = model.get("value");
+    const titles = model.get("header").map((title) => element("th", { scope: "col" }, title));
+    head.replaceChildren(element("tr", {}, ...(selectable ? [element("th", { scope: "col" }, "")] : []), ...titles));
+    body.replaceChildren(...model.get("rows").map((row, i) => {
+      const line = element("tr", i === value ? { class: "ck-chosen" } : {}, ...row.map((cell) => element("td", {}, cell)));
+      if (selectable) {
+        const radio = element("input", { ...own, type: "radio", name: group, "aria-label": `choose ${row[0]}` });
+        radio.checked = i === value;
+        radio.addEventListener("change", () => {
+          model.set("value", i);
+          model.save_changes();
+        });
+        keepKeys(radio);
+        line.prepend(element("td", {}, radio));
+        if (focused && i === value) setTimeout(() => radio.focus());
+      }
+      return line;
+    }));
+  };
+  el.append(element("div", { class: "ck-scroll" }, element("table", { class: "ck-table" }, caption, head, body)));
+  for (const name of ["rows", "header", "value"]) model.on(`change:${name}`, draw);
+  draw();
+}
+
+function picture(model, el) {
+  const image = element("img", { class: "ck-plot" });
+  const caption = element("figcaption", {});
+  const draw = () => {
+    const data = model.get("png");
+    const url = URL.createObjectURL(new Blob([data], { type: "image/png" }));
+    const old = image.src;
+    image.onload = () => old && URL.revokeObjectURL(old);
+    image.src = url;
+    image.alt = model.get("alt");
+    caption.textContent = model.get("caption");
+  };
+  if (model.get("clickable")) {
+    image.classList.add("ck-clickable");
+    image.addEventListener("click", (event) => {
+      const area = image.getBoundingClientRect();
+      const x = (event.clientX - area.left) / area.width, y = 1 - (event.clientY - area.top) / area.height;
+      model.send({ type: "click", x, y }); // fractions of the picture, from its lower left corner
+    });
+  }
+  el.append(element("figure", { class: "ck-figure" }, image, caption));
+  image.style.width = `${model.get("width")}px`;
+  model.on("change:png", draw);
+  draw();
+}
+
+const makers = { slider, choice, toggle, action, text, table, picture };
+
+export default {
+  render({ model, el }) {
+    el.classList.add("ck-control");
+    makers[model.get("kind")](model, el);
+  },
+};

@@ -1,0 +1,107 @@
+// Playing a motion that was sent once: buttons, a scrubber and speeds, all stepped here in the page.
+
+const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
+
+function element(tag, attributes = {}, ...children) {
+  const node = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+  node.append(...children);
+  return node;
+}
+
+// show(k) draws frame k of the motion; report(k) tells the kernel where it rests; wake() asks for animation frames.
+function makePlayer({ show, report, wake }) {
+  const play = element("button", { type: "button", class: "ck-button ck-play" }, "play");
+  const back = element("button", { type: "button", class: "ck-button", title: "to the first pose" }, "restart");
+  const scrub = element("input", { type: "range", class: "ck-scrub", min: 0, step: 1, "aria-label": "pose along the motion" });
+  const speed = element("select", { class: "ck-button", "aria-label": "playing speed" });
+  for (const factor of SPEEDS) speed.append(element("option", { value: factor }, `${factor} x`));
+  const loop = element("input", { type: "checkbox" });
+  const count = element("span", { class: "ck-count" });
+  const bar = element("div", { class: "ck-player", role: "group", "aria-label": "motion", "data-lm-suppress-shortcuts": "true" });
+  bar.append(play, back, scrub, count, speed, element("label", { class: "ck-loop" }, loop, "repeat"));
+  for (const control of [play, back, scrub, speed, loop]) control.setAttribute("data-lm-suppress-shortcuts", "true");
+
+  let motion = null; // {frames, fps}
+  let frame = 0, playing = false, due = 0, last = null;
+
+  const go = (k) => {
+    frame = k;
+    scrub.value = k;
+    scrub.setAttribute("aria-valuetext", `pose ${k + 1} of ${motion.frames}`);
+    count.textContent = `${k + 1} / ${motion.frames}`;
+    show(k);
+  };
+  const setPlaying = (on) => {
+    playing = on;
+    last = null;
+    due = 0;
+    play.textContent = on ? "pause" : "play";
+    play.setAttribute("aria-label", on ? "pause the motion" : "play the motion");
+    if (on) wake();
+    else if (motion) report(frame);
+  };
+  const start = () => {
+    if (frame >= motion.frames - 1) go(0);
+    setPlaying(true);
+  };
+  const step = (k) => {
+    if (!motion) return;
+    setPlaying(false);
+    go(Math.max(0, Math.min(motion.frames - 1, k)));
+    report(frame);
+  };
+
+  play.onclick = () => (playing ? setPlaying(false) : start());
+  back.onclick = () => step(0);
+  scrub.oninput = () => {
+    if (playing) setPlaying(false);
+    go(Number(scrub.value));
+  };
+  scrub.onchange = () => report(frame);
+  bar.addEventListener("keydown", (event) => {
+    event.stopPropagation(); // the notebook has its own meaning for these keys
+    if (event.key === " " && event.target === scrub) {
+      event.preventDefault();
+      play.click();
+    }
+  });
+
+  return {
+    bar,
+    playing: () => playing,
+    // a new motion, or null for none; at = the frame to rest at, or play from the start
+    load(next, at = null) {
+      motion = next && next.frames ? next : null;
+      bar.hidden = !motion;
+      if (!motion) return (playing = false);
+      scrub.max = motion.frames - 1;
+      speed.value = "1";
+      loop.checked = !!motion.loop;
+      go(at === null ? 0 : Math.max(0, Math.min(motion.frames - 1, at)));
+      if (at === null && motion.autoplay) setPlaying(true);
+      else playing = false, (play.textContent = "play");
+    },
+    pause() {
+      if (playing) { playing = false; play.textContent = "play"; }
+    },
+    step,
+    toggle: () => motion && play.click(),
+    // Once per animation frame. Keeps real time, yet does not skip a pose for a hiccup of less than three.
+    tick(now) {
+      if (!playing) return;
+      if (last !== null) due += ((now - last) / 1000) * motion.fps * Number(speed.value);
+      last = now;
+      if (due < 1) return;
+      const jump = due < 3 ? 1 : Math.floor(due);
+      due -= jump;
+      const next = frame + jump;
+      if (next < motion.frames) go(next);
+      else if (loop.checked) go(next % motion.frames);
+      else { // the last pose is always drawn, exactly
+        go(motion.frames - 1);
+        setPlaying(false);
+      }
+    },
+  };
+}

@@ -1,0 +1,259 @@
+// One meshcat viewer in a pane, tamed for a notebook: one WebGL context per page, frames only when something changed.
+
+// Browsers keep about 16 WebGL contexts. All views of a page share one renderer and copy its picture to a 2D canvas.
+function sharedRenderer(MeshCat) {
+  const shared = page();
+  if (shared.renderer) return shared.renderer;
+  const THREE = MeshCat.THREE;
+  const renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true });
+  renderer.setPixelRatio(1);
+  renderer.setClearColor(0, 0);
+  renderer.outputEncoding = THREE.sRGBEncoding;
+  renderer.shadowMap.enabled = true;
+  renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+  renderer.shadowMap.autoUpdate = false; // a resting pose keeps its shadow: a third of the cost without a GPU
+  shared.contextLost = false;
+  const redrawAll = () => {
+    shared.contextLost = false;
+    shared.studioLight = null; // the environment lived in the lost context
+    for (const stage of shared.views) stage.relight();
+  };
+  renderer.domElement.addEventListener("webglcontextlost", (event) => {
+    event.preventDefault(); // without this the browser never gives the context back
+    shared.contextLost = true;
+    setTimeout(() => {
+      if (!shared.contextLost || shared.renderer !== renderer) return;
+      shared.renderer = null; // it did not come back: start again with a new one
+      try {
+        sharedRenderer(MeshCat);
+      } catch (error) {
+        return;
+      }
+      redrawAll();
+    }, 3000);
+  });
+  renderer.domElement.addEventListener("webglcontextrestored", redrawAll);
+  shared.renderer = renderer;
+  return renderer;
+}
+
+// A small bright room, prefiltered once per page: the soft reflections that make painted metal look like it.
+function studioLight(MeshCat) {
+  const shared = page();
+  if (shared.studioLight) return shared.studioLight;
+  const THREE = MeshCat.THREE;
+  const room = new THREE.Scene();
+  const box = new THREE.BoxGeometry(1, 1, 1);
+  const walls = new THREE.Mesh(box, new THREE.MeshBasicMaterial({ color: 0x8d9299, side: THREE.BackSide }));
+  walls.scale.set(10, 6, 10);
+  room.add(walls);
+  const lamps = [ // brightness, centre, size
+    [9.0, [0, 2.9, 0], [5, 0.05, 5]],
+    [5.0, [-4.9, 0.8, 1], [0.05, 2.6, 4]],
+    [3.5, [3, 1, 4.9], [4, 2.4, 0.05]],
+    [0.25, [0, -2.95, 0], [9, 0.05, 9]],
+  ];
+  for (const [brightness, centre, size] of lamps) {
+    const lamp = new THREE.Mesh(box, new THREE.MeshBasicMaterial());
+    lamp.material.color.setScalar(brightness);
+    lamp.position.set(...centre);
+    lamp.scale.set(...size);
+    room.add(lamp);
+  }
+  const filter = new THREE.PMREMGenerator(sharedRenderer(MeshCat));
+  shared.studioLight = filter.fromScene(room, 0.03).texture;
+  filter.dispose();
+  return shared.studioLight;
+}
+
+// What meshcat's Viewer takes for its renderer: the page's one renderer, drawing into this view's own canvas.
+function canvasRenderer(MeshCat) {
+  sharedRenderer(MeshCat); // throws here, and not at the first frame, where there is no WebGL
+  const canvas = document.createElement("canvas");
+  const context = canvas.getContext("2d");
+  const inUse = new MeshCat.THREE.Vector2();
+  let width = 1, height = 1, ratio = 1;
+  const facade = {
+    domElement: canvas,
+    coarseness: 1, // below 1: fewer pixels while something moves
+    shadowsStale: true,
+    shadows: true,
+    size: () => ({ width, height }),
+    setPixelRatio(value) { ratio = value; },
+    setSize(w, h) {
+      [width, height] = [w, h];
+      canvas.style.width = `${w}px`;
+      canvas.style.height = `${h}px`;
+      facade.fitCanvas();
+    },
+    fitCanvas() {
+      const w = Math.max(1, Math.round(width * ratio * facade.coarseness));
+      const h = Math.max(1, Math.round(height * ratio * facade.coarseness));
+      if (canvas.width !== w) canvas.width = w;
+      if (canvas.height !== h) canvas.height = h;
+    },
+    render(scene, camera) {
+      const gl = sharedRenderer(MeshCat);
+      const w = canvas.width, h = canvas.height;
+      gl.getSize(inUse);
+      if (inUse.x < w || inUse.y < h) gl.setSize(Math.max(w, inUse.x), Math.max(h, inUse.y), false);
+      gl.getSize(inUse);
+      gl.setViewport(0, 0, w, h);
+      gl.setScissor(0, 0, w, h);
+      gl.setScissorTest(true);
+      gl.shadowMap.enabled = facade.shadows;
+      // few pixels means that frames are slow and that a full picture follows: the shadow waits for that
+      const shadowNow = facade.shadows && facade.shadowsStale && facade.coarseness === 1;
+      gl.shadowMap.needsUpdate = shadowNow;
+      if (shadowNow) facade.shadowsStale = false;
+      gl.render(scene, camera);
+      context.clearRect(0, 0, w, h);
+      context.drawImage(gl.domElement, 0, inUse.y - h, w, h, 0, 0, w, h);
+    },
+    dispose() {},
+  };
+  return facade;
+}
+
+// meshcat's constructor adds window listeners, takes window.onload and would start an endless loop of frames.
+function quietViewer(MeshCat, pane, renderer) {
+  const listeners = [];
+  const { addEventListener, onload } = window;
+  window.addEventListener = function (...args) {
+    listeners.push(args);
+    return addEventListener.apply(window, args);
+  };
+  try {
+    const viewer = new MeshCat.Viewer(pane, false, renderer);
+    viewer.gui.domElement.style.display = "none";
+    viewer.forgetListeners = () => listeners.forEach((args) => window.removeEventListener(...args));
+    return viewer;
+  } finally {
+    delete window.addEventListener;
+    if (window.addEventListener !== addEventListener) window.addEventListener = addEventListener;
+    window.onload = onload;
+  }
+}
+
+function release(object) {
+  object.traverse((part) => {
+    if (part.geometry) part.geometry.dispose();
+    for (const material of [].concat(part.material || [])) {
+      if (material.map) material.map.dispose();
+      material.dispose();
+    }
+  });
+}
+
+// Phong in place of physically based paint: about a third cheaper without a GPU.
+function plainMaterial(THREE, material) {
+  if (!material.isMeshStandardMaterial) return material;
+  const plain = new THREE.MeshPhongMaterial({ shininess: 30 });
+  for (const name of ["transparent", "opacity", "depthTest", "depthWrite", "side", "vertexColors", "emissiveIntensity"]) {
+    plain[name] = material[name];
+  }
+  plain.color.copy(material.color);
+  plain.emissive.copy(material.emissive);
+  return plain;
+}
+
+function makeStage(MeshCat, pane, quality) {
+  const THREE = MeshCat.THREE, shared = page();
+  const renderer = canvasRenderer(MeshCat);
+  const viewer = quietViewer(MeshCat, pane, renderer);
+  pane.append(renderer.domElement);
+  renderer.shadows = quality !== "low";
+  viewer.scene_tree.find(["Background"]).object.visible = false; // the pane's style sheet paints the ground, by theme
+  viewer.hide_background();
+  if (quality !== "low") viewer.scene.environment = studioLight(MeshCat);
+
+  const meshcatViewer = MeshCat.Viewer.prototype;
+  viewer.set_3d_pane_size = function () {
+    if (!pane.isConnected || !pane.clientWidth || !pane.clientHeight) return;
+    meshcatViewer.set_3d_pane_size.call(this, pane.clientWidth, pane.clientHeight);
+  };
+  viewer.set_object = function (path, object) {
+    const node = viewer.scene_tree.find(path.concat(["<object>"]));
+    release(node.object); // meshcat frees the root alone, not a Group's parts
+    node.controllers.forEach((controller) => node.folder.remove(controller));
+    node.controllers = []; // meshcat keeps them: a light that is replaced twice would throw
+    object.traverse((part) => {
+      if (part.isLight && !part.shadow) part.castShadow = false; // meshcat switches it on for every root
+      if (quality === "low" && part.material && !Array.isArray(part.material)) part.material = plainMaterial(THREE, part.material);
+      for (const material of [].concat(part.material || [])) {
+        if (material.isMeshStandardMaterial) material.envMapIntensity = 0.35;
+      }
+    });
+    meshcatViewer.set_object.call(this, path, object);
+  };
+
+  let request = 0, sharpen = 0, cost = 0, dead = false, lastMotion = -1e9;
+  const stage = { viewer, renderer, beforeFrame: [], afterFrame: [], frames: 0, playing: () => false, resized() {} };
+
+  const draw = (now) => {
+    request = 0;
+    if (dead) return;
+    for (const act of stage.beforeFrame) act(now);
+    // a cell out of sight is taken out of the page: it gets the pose, and is drawn when it comes back
+    if (viewer.needs_render && pane.isConnected && !shared.contextLost) {
+      const coarse = quality === "low" || (quality === "auto" && cost > 45);
+      const wanted = coarse && performance.now() - lastMotion < 150 ? 0.5 : 1;
+      if (renderer.coarseness !== wanted) {
+        renderer.coarseness = wanted;
+        renderer.fitCanvas();
+      }
+      const begun = performance.now();
+      viewer.render();
+      const took = performance.now() - begun;
+      if (wanted === 1) cost = stage.frames < 3 ? 0 : cost ? 0.7 * cost + 0.3 * took : took; // the first compile shaders
+      stage.frames += 1;
+      clearTimeout(sharpen);
+      if (wanted < 1) sharpen = setTimeout(() => viewer.set_dirty(), 200); // full sharpness once it rests
+      for (const act of stage.afterFrame) act(now);
+    }
+    if (stage.playing()) stage.wake();
+  };
+  stage.wake = () => {
+    if (!request && !dead) request = requestAnimationFrame(draw);
+  };
+  viewer.set_dirty = function () {
+    this.needs_render = true;
+    stage.wake();
+  };
+  // Something in the scene moved (and not only the camera): the shadow has to follow.
+  stage.moved = () => {
+    renderer.shadowsStale = true;
+    lastMotion = performance.now();
+    viewer.set_dirty();
+  };
+  stage.relight = () => {
+    if (quality !== "low") viewer.scene.environment = studioLight(MeshCat);
+    stage.moved();
+  };
+  viewer.controls.addEventListener("change", () => (lastMotion = performance.now()));
+
+  // The wheel belongs to the notebook until the pane has been clicked.
+  viewer.controls.enableZoom = false;
+  pane.addEventListener("pointerdown", () => { viewer.controls.enableZoom = true; pane.focus({ preventScroll: true }); });
+  pane.addEventListener("pointerleave", () => { viewer.controls.enableZoom = false; });
+
+  const resize = new ResizeObserver(() => {
+    viewer.set_3d_pane_size();
+    stage.resized();
+  });
+  resize.observe(pane);
+  stage.destroy = () => {
+    dead = true;
+    cancelAnimationFrame(request);
+    clearTimeout(sharpen);
+    resize.disconnect();
+    shared.views.delete(stage);
+    viewer.forgetListeners();
+    viewer.controls.dispose();
+    release(viewer.scene);
+    viewer.gui.destroy();
+    pane.replaceChildren();
+  };
+  shared.views.add(stage);
+  return stage;
+}

@@ -1,0 +1,199 @@
+// The Viewer widget: scene commands, poses and motions from the kernel in; pictures out.
+// bundle.js, stage.js, actors.js and player.js stand above this file: viewer.py joins them into one module.
+
+export default function () {
+  const commands = new Map(); // key -> bytes of one meshcat command: the whole scene, for views that come later
+  const views = new Set();
+
+  // From the kernel: commands that are new or changed, and keys that are gone.
+  function update(model, content, buffers) {
+    if (content.type === "bundle") return receiveBundle(buffers[0]);
+    if (content.type === "commands") {
+      content.gone.forEach((key) => commands.delete(key));
+      content.keys.forEach((key, i) => commands.set(key, bytesOf(buffers[i]).slice()));
+      for (const view of views) view.change(content.delete, buffers.map(bytesOf));
+    }
+    if (content.type === "png") for (const view of views) view.picture(bytesOf(buffers[0]));
+  }
+
+  return {
+    initialize({ model }) {
+      for (const [key, data] of Object.entries(model.get("commands"))) commands.set(key, bytesOf(data));
+      model.on("msg:custom", (content, buffers) => update(model, content, buffers));
+      askForBundle(model);
+    },
+
+    async render({ model, el, signal }) {
+      const pane = element("div", { class: "ck-pane", tabindex: 0, role: "group", "aria-roledescription": "3D view",
+        "data-lm-suppress-shortcuts": "true", title: "drag: turn, right drag: move, wheel after a click: zoom; keys: arrows, + and -, Home" });
+      const buttons = element("div", { class: "ck-views", role: "group", "aria-label": "views" });
+      const box = element("div", { class: "ck-viewer" }, pane, buttons);
+      const text = element("div", { class: "ck-text", role: "status" });
+      box.style.height = `${model.get("height")}px`;
+      const wait = element("p", { class: "ck-wait" }, "The 3D view is on its way …");
+      pane.append(wait);
+      el.classList.add("ck-root");
+      el.append(box);
+
+      let MeshCat, stage;
+      try {
+        MeshCat = await page().meshcat;
+        if (signal && signal.aborted) return;
+        wait.remove();
+        stage = makeStage(MeshCat, pane, model.get("quality"));
+      } catch (error) {
+        return showPicture(model, pane, views, error);
+      }
+      const { viewer } = stage;
+      const labels = makeLabels(MeshCat.THREE, viewer, pane, stage.renderer);
+      const drawGhosts = makeGhosts(MeshCat.THREE, viewer);
+      const camera = makeCamera(MeshCat.THREE, viewer, pane);
+      stage.resized = camera.fit;
+
+      // --- poses: the latest one wins and is drawn once; a motion draws its own
+      let moving = [], pose = null, poses = null;
+      const place = (floats, k) => {
+        moving.forEach((path, i) => {
+          const at = 16 * (k * moving.length + i);
+          if (at + 16 <= floats.length) viewer.set_transform(path, floats.subarray(at, at + 16));
+        });
+        stage.moved();
+      };
+      const player = makePlayer({
+        wake: stage.wake,
+        show(k) {
+          place(poses, k);
+          const lines = model.get("motion_texts");
+          text.textContent = lines.length ? lines[k] : "";
+          text.hidden = !lines.length;
+        },
+        report(k) {
+          model.set("frame", k);
+          model.save_changes();
+        },
+      });
+      stage.playing = player.playing;
+      stage.beforeFrame.push((now) => {
+        if (pose) place(pose, 0);
+        pose = null;
+        player.tick(now);
+      });
+      stage.afterFrame.push(labels.place);
+      el.append(player.bar, text);
+
+      const onPose = () => {
+        moving = model.get("moving").map(splitPath);
+        if (model.get("frame") >= 0) return;
+        player.pause();
+        text.hidden = true;
+        pose = floatsOf(model.get("pose"));
+        stage.moved();
+      };
+      const onMotion = (at) => {
+        poses = floatsOf(model.get("motion_poses"));
+        text.hidden = true;
+        player.load(model.get("motion"), at);
+      };
+      const onGhosts = () => {
+        drawGhosts(model.get("ghosts"));
+        onPose();
+      };
+      const onLabels = () => {
+        labels.set(model.get("labels"));
+        viewer.set_dirty();
+      };
+      const onCamera = () => {
+        camera.lens(model.get("camera").size || 1);
+        buttons.replaceChildren();
+        for (const [name, where] of Object.entries(model.get("views"))) {
+          const button = element("button", { type: "button", class: "ck-button", title: `${name} view` }, name);
+          button.onclick = () => camera.show(where);
+          buttons.append(button);
+        }
+        if (model.get("camera").position) camera.show(model.get("camera"));
+      };
+      const onText = () => pane.setAttribute("aria-label", model.get("description"));
+      pane.addEventListener("keydown", (event) => {
+        const key = keys(event.key, camera, player, () => camera.show(model.get("camera")));
+        if (key) {
+          event.preventDefault();
+          event.stopPropagation();
+        }
+      });
+
+      const view = {
+        change(deleted, buffers) {
+          for (const path of deleted) viewer.delete_path(splitPath(path));
+          for (const bytes of buffers) {
+            try {
+              viewer.handle_command_bytearray(bytes);
+            } catch (error) {
+              console.error("[coursekit] a command of the scene failed", error); // and the rest is drawn all the same
+            }
+          }
+          const sources = model.get("ghosts").map((ghost) => ghost.src);
+          if (sources.length) drawGhosts(model.get("ghosts")); // their geometry may have been replaced
+          stage.moved();
+        },
+        picture() {},
+      };
+      viewer.set_3d_pane_size();
+      view.change([], [...commands.values()]);
+      onLabels();
+      onCamera();
+      onText();
+      onPose();
+      if (model.get("motion").frames) onMotion(Math.max(0, model.get("frame")));
+      else player.load(null);
+      if (model.get("frame") < 0) onPose();
+      views.add(view);
+
+      const changes = { pose: onPose, moving: onPose, frame: onPose, labels: onLabels, ghosts: onGhosts, camera: onCamera, description: onText,
+        motion: () => onMotion(null), height: () => (box.style.height = `${model.get("height")}px`) };
+      for (const [name, act] of Object.entries(changes)) model.on(`change:${name}`, act);
+      box.coursekit = { stage, viewer, player, page: page() }; // for the browser's console and the tests
+
+      return () => {
+        views.delete(view);
+        stage.destroy();
+      };
+    },
+  };
+}
+
+// The pane's own keys. True when the key was one of them.
+function keys(key, camera, player, home) {
+  const act = {
+    ArrowLeft: () => camera.turn(-0.1, 0), ArrowRight: () => camera.turn(0.1, 0),
+    ArrowUp: () => camera.turn(0, -0.1), ArrowDown: () => camera.turn(0, 0.1),
+    "+": () => camera.turn(0, 0, 0.9), "-": () => camera.turn(0, 0, 1.1), Home: home, " ": player.toggle,
+  }[key];
+  if (act) act();
+  return Boolean(act);
+}
+
+// No WebGL, or a policy that forbids the bundle: the picture the kernel draws, renewed at most twice a second.
+function showPicture(model, pane, views, error) {
+  const image = element("img", { class: "ck-picture", alt: model.get("description") });
+  const reason = /WebGL/i.test(error.message) ? "this browser has no WebGL" : error.message;
+  pane.replaceChildren(image, element("p", { class: "ck-wait" }, `A still picture in place of the 3D view: ${reason}.`));
+  let timer = null;
+  const ask = () => {
+    timer = timer || setTimeout(() => {
+      timer = null;
+      model.send({ type: "need_png", width: pane.clientWidth || 640, height: pane.clientHeight || 420 });
+    }, 500);
+  };
+  const view = {
+    change: ask,
+    picture(bytes) {
+      URL.revokeObjectURL(image.src);
+      image.src = URL.createObjectURL(new Blob([bytes], { type: "image/png" }));
+      image.alt = model.get("description");
+    },
+  };
+  views.add(view);
+  model.on("change:pose", ask);
+  ask();
+  return () => views.delete(view);
+}

@@ -1,0 +1,56 @@
+"""Fixtures of the browser tests: one JupyterLab and one Chromium for all of them, one page for each.
+
+Where there is no browser the tests are skipped with the reason; with CI=true they fail instead.
+"""
+
+import os
+
+import pytest
+
+from tests.browser.lab import CHROMIUM_FLAGS, Lab, Notebook, chromium
+
+
+@pytest.fixture(scope="session")
+def browser():
+    missing = None
+    try:
+        from playwright.sync_api import sync_playwright
+    except ImportError:
+        missing = "playwright is not installed (pip install -r tests/requirements.txt)"
+    if not missing and not chromium():
+        missing = "no Chromium on the PATH (set CHROMIUM to its path)"
+    if missing:
+        (pytest.fail if os.environ.get("CI") == "true" else pytest.skip)(missing)
+    with sync_playwright() as playwright:
+        running = playwright.chromium.launch(executable_path=chromium(), args=list(CHROMIUM_FLAGS))
+        yield running
+        running.close()
+
+
+@pytest.fixture(scope="session")
+def lab(browser, tmp_path_factory):
+    server = Lab(tmp_path_factory.mktemp("lab"))
+    yield server
+    server.close()
+
+
+@pytest.fixture(scope="session")
+def open_page(lab, browser):
+    """Function that opens a fresh browser page: `open_page().open(lab.write("name.ipynb", "cell", ...))`."""
+    contexts = []
+
+    def new(**options):
+        contexts.append(browser.new_context(**{"viewport": {"width": 1280, "height": 900}, **options}))
+        return Notebook(lab, contexts[-1].new_page())
+
+    yield new
+    for context in contexts:
+        context.close()
+
+
+@pytest.fixture
+def notebook(lab, browser):
+    """A fresh page for one test."""
+    context = browser.new_context(viewport={"width": 1280, "height": 900})
+    yield Notebook(lab, context.new_page())
+    context.close()

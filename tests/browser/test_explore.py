@@ -1,0 +1,224 @@
+"""The explorer of notebook 01 as a student meets it: a real JupyterLab, a real browser, keys and mouse."""
+
+import numpy as np
+import pytest
+
+from coursekit import robots
+
+pytestmark = pytest.mark.browser
+
+IMPORT = "from coursekit import robots, view"
+SHOW = "panel = view.explore(robots.kuka_kr6())\npanel"
+TOOL = "/ck/robot/6/tool"
+
+
+@pytest.fixture(scope="module")
+def opened(lab, open_page):
+    """The explorer of a KUKA KR6, run and at rest; opening JupyterLab is what takes the time."""
+    notebook = open_page()
+    notebook.open(lab.write("explorer.ipynb", IMPORT, SHOW))
+    notebook.run_all()
+    notebook.wait_view()
+    return notebook
+
+
+@pytest.fixture
+def explorer(opened):
+    opened.kernel("panel.reset()")
+    settle(opened)
+    opened.errors.clear()
+    yield opened
+    assert opened.errors == []
+
+
+def sliders(notebook):
+    """What the sliders say, in radians."""
+    shown = notebook.page.eval_on_selector_all(
+        "[role=slider]:not(.ck-scrub)", "all => all.map((one) => Number(one.getAttribute('aria-valuenow')))"
+    )
+    return np.radians(shown)
+
+
+def settle(notebook):
+    """Wait until the kernel has the last slider value and the page its pose."""
+    notebook.page.wait_for_timeout(300)
+    notebook.idle()
+    notebook.rest()
+
+
+def assert_tool_is_where_the_sliders_say(notebook, view=0):
+    kr6 = robots.kuka_kr6()
+    theta = np.array(notebook.kernel("panel.values['theta'].tolist()"))
+    np.testing.assert_allclose(
+        theta, sliders(notebook)[:6], atol=1e-4
+    )  # what the page shows has two decimals
+    found = notebook.wait_transform(TOOL, kr6.fk(theta), view)
+    np.testing.assert_allclose(found, kr6.fk(theta), rtol=0, atol=1e-12)
+
+
+def drag(notebook, index, share):
+    """Drag the handle of a slider to a share of its track, in small steps as a hand does."""
+    page = notebook.page
+    track = page.locator("[role=slider]").nth(index)
+    area = track.bounding_box()
+    ends = [float(track.get_attribute(name)) for name in ("aria-valuemin", "aria-valuenow", "aria-valuemax")]
+    knob = 8 + (area["width"] - 16) * (ends[1] - ends[0]) / (ends[2] - ends[0])
+    y = area["y"] + area["height"] / 2
+    page.mouse.move(area["x"] + knob, y)
+    page.mouse.down()
+    page.mouse.move(area["x"] + 8 + share * (area["width"] - 16), y, steps=12)
+    page.mouse.up()
+
+
+def test_keyboard_and_drag_move_the_robot_exactly(explorer):
+    assert_tool_is_where_the_sliders_say(explorer)
+    before = explorer.pixels()
+
+    explorer.page.locator("[role=slider]").nth(0).focus()
+    for key in ("ArrowRight", "ArrowRight", "PageUp", "Shift+ArrowLeft"):
+        explorer.page.keyboard.press(key)
+    settle(explorer)
+    np.testing.assert_allclose(sliders(explorer)[0], np.radians(11.9))
+    assert_tool_is_where_the_sliders_say(explorer)
+    after_keys = explorer.pixels()
+    assert after_keys != before
+
+    drag(explorer, 1, 0.25)
+    settle(explorer)
+    assert abs(np.degrees(sliders(explorer)[1]) - (-190 + 0.25 * 235)) < 4
+    assert_tool_is_where_the_sliders_say(explorer)
+    assert explorer.pixels() != after_keys
+
+
+def test_number_box_takes_any_number_and_keeps_to_the_limits(explorer):
+    box = explorer.page.locator("input[type=number]").nth(4)
+    box.fill("12.345")
+    box.press("Enter")
+    settle(explorer)
+    assert explorer.kernel("panel.values['theta'][4]") == pytest.approx(np.radians(12.345), abs=1e-15)
+    box.fill("999")
+    box.press("Enter")
+    settle(explorer)
+    assert explorer.kernel("panel.values['theta'][4]") == pytest.approx(robots.kuka_kr6().q_max[4], abs=1e-12)
+    assert_tool_is_where_the_sliders_say(explorer)
+
+
+def test_nothing_is_drawn_while_nothing_changes(explorer):
+    before = explorer.frames()
+    explorer.page.wait_for_timeout(1500)
+    assert explorer.frames() == before
+
+
+def test_the_switches_show_the_frames_and_reset_goes_back(explorer):
+    page = explorer.page
+    shown = (
+        "() => [...document.querySelectorAll('.ck-label')].filter((l) => l.style.display !== 'none').length"
+    )
+    few = page.evaluate(shown)
+    page.get_by_label("standard DH frames").check()
+    settle(explorer)
+    assert page.evaluate(shown) >= few + 7 * 3
+    page.locator("[role=slider]").nth(2).press("PageUp")
+    page.get_by_role("button", name="reset").click()
+    settle(explorer)
+    assert page.evaluate(shown) == few
+    np.testing.assert_allclose(sliders(explorer)[:6], robots.kuka_kr6().home, atol=1e-12)
+    assert_tool_is_where_the_sliders_say(explorer)
+
+
+def test_run_all_does_not_overwrite_what_a_later_cell_sets(notebook, lab):
+    later = "theta = [0.4, -0.3, 0.2, 0.1, -0.7, 1.1]\npanel.set(theta=theta)"
+    notebook.open(lab.write("later.ipynb", IMPORT, SHOW, later))
+    notebook.run_all()
+    notebook.wait_view()
+    settle(notebook)
+    assert notebook.kernel("panel.values['theta'].tolist()") == [0.4, -0.3, 0.2, 0.1, -0.7, 1.1]
+    assert_tool_is_where_the_sliders_say(notebook)
+    assert notebook.errors == []
+
+
+def test_a_second_view_and_a_reloaded_page_show_the_same_pose(notebook, lab):
+    notebook.open(lab.write("twice.ipynb", IMPORT, SHOW, "panel"))
+    notebook.run_all()
+    notebook.wait_view(2)
+    notebook.page.locator("[role=slider]").nth(0).press("PageUp")
+    settle(notebook)
+    expected = robots.kuka_kr6().fk(notebook.kernel("panel.values['theta'].tolist()"))
+    for view in (0, 1):
+        found = notebook.wait_transform(TOOL, expected, view)
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12)
+
+    notebook.command("docmanager:save")
+    notebook.page.wait_for_timeout(1000)
+    notebook.reload()
+    notebook.wait_view(2)
+    for view in (0, 1):
+        found = notebook.wait_transform(TOOL, expected, view)
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12)
+    drag(notebook, 3, 0.8)
+    settle(notebook)
+    expected = robots.kuka_kr6().fk(notebook.kernel("panel.values['theta'].tolist()"))
+    for view in (0, 1):
+        found = notebook.wait_transform(TOOL, expected, view)
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12)
+    assert notebook.errors == []
+
+
+def test_running_the_cell_ten_times_leaves_one_panel(explorer):
+    models = "len(__import__('ipywidgets').widgets.widget._instances)"
+    before = explorer.kernel(models)
+    for _ in range(10):
+        explorer.page.evaluate(
+            """() => { const n = window.jupyterapp.shell.currentWidget.content; n.activeCellIndex = 1;
+                       return window.jupyterapp.commands.execute("notebook:run-cell"); }"""
+        )
+        explorer.idle()
+    explorer.wait_view()
+    assert explorer.kernel(models) == before
+    assert explorer.page.locator(".ck-viewer").count() == 1
+    assert explorer.page.evaluate("() => globalThis[Symbol.for('coursekit.page.1')].views.size") == 1
+    assert explorer.page.evaluate("() => globalThis[Symbol.for('coursekit.page.1')].evaluated") == 1
+    explorer.page.locator("[role=slider]").nth(0).press("PageUp")
+    settle(explorer)
+    assert_tool_is_where_the_sliders_say(explorer)
+
+
+def test_one_robot_after_another(notebook, lab):
+    notebook.open(lab.write("picker.ipynb", IMPORT, "panel = view.explore()\npanel"))
+    notebook.run_all()
+    notebook.wait_view()
+    for arm in (robots.franka_panda(), robots.planar_2r(), robots.kawasaki_s030(), robots.kuka_kr6()):
+        notebook.page.locator(".ck-select").select_option(arm.name)
+        home = arm.fk(arm.home)
+        found = notebook.wait_transform(f"/ck/robot/{arm.n}/tool", home)
+        np.testing.assert_allclose(found, home, rtol=0, atol=1e-12)
+        settle(notebook)
+        visible = notebook.page.locator("[role=slider]:visible")
+        assert visible.count() == arm.n
+        drawn = notebook.page.evaluate(
+            """() => {
+                 const { viewer } = document.querySelector(".ck-viewer").coursekit;
+                 const links = Object.values(viewer.scene_tree.find(["ck", "robot"]).children);
+                 return links.filter((link) => link.children.solid?.children["<object>"]).length;
+               }"""
+        )
+        assert drawn == arm.n + 1
+    assert notebook.errors == []
+
+
+def test_a_lost_webgl_context_comes_back(explorer):
+    explorer.page.evaluate(
+        """async () => {
+             const gl = globalThis[Symbol.for("coursekit.page.1")].renderer.getContext();
+             const lose = gl.getExtension("WEBGL_lose_context");
+             lose.loseContext();
+             await new Promise((done) => setTimeout(done, 300));
+             lose.restoreContext();
+             await new Promise((done) => setTimeout(done, 300));
+           }"""
+    )
+    before = explorer.pixels()
+    explorer.page.locator("[role=slider]").nth(0).press("PageUp")
+    settle(explorer)
+    assert explorer.pixels() != before
+    assert_tool_is_where_the_sliders_say(explorer)

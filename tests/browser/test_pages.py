@@ -1,0 +1,129 @@
+"""The viewer where things are not as usual: a motion, no WebGL, strict policies, a page without a kernel."""
+
+import numpy as np
+import pytest
+
+from coursekit import robots, view
+
+pytestmark = pytest.mark.browser
+
+IMPORT = "import numpy as np\nfrom coursekit import robots, view"
+SHOW = "kr6 = robots.kuka_kr6()\npanel = view.explore(kr6)\npanel"
+TOOL = "/ck/robot/6/tool"
+DRAWN = "() => document.querySelector('.ck-viewer')?.coursekit?.stage.frames > 0"
+
+
+def test_a_motion_plays_to_its_last_pose_and_can_be_scrubbed(notebook, lab):
+    motion = "q = np.linspace(kr6.home, kr6.home + 0.5, 101)\n"
+    motion += "panel.play_theta(q, texts=[f'pose {k}' for k in range(101)])"
+    notebook.open(lab.write("motion.ipynb", IMPORT, SHOW, motion))
+    notebook.run_all()
+    notebook.wait_view()
+    kr6, page = robots.kuka_kr6(), notebook.page
+    page.wait_for_function(
+        "() => document.querySelector('.ck-count').textContent === '101 / 101'", timeout=60_000
+    )
+    last = kr6.fk(kr6.home + 0.5)
+    np.testing.assert_allclose(notebook.wait_transform(TOOL, last), last, rtol=0, atol=1e-12)
+    assert page.inner_text(".ck-viewer ~ .ck-text") == "pose 100"
+    notebook.idle()
+    assert notebook.kernel("panel.viewer.frame") == 100
+
+    page.locator(".ck-scrub").focus()
+    page.keyboard.press("Home")
+    for _ in range(3):
+        page.keyboard.press("ArrowRight")
+    fourth = kr6.fk(kr6.home + 0.5 * 3 / 100)
+    np.testing.assert_allclose(notebook.wait_transform(TOOL, fourth), fourth, rtol=0, atol=1e-12)
+
+    page.locator("[role=slider]").first.press("PageUp")  # a slider ends the motion
+    expected = kr6.fk(kr6.home + np.radians([10, 0, 0, 0, 0, 0]))
+    np.testing.assert_allclose(notebook.wait_transform(TOOL, expected), expected, rtol=0, atol=1e-12)
+    assert notebook.errors == []
+
+
+def test_keys_and_drags_in_a_hurry_end_at_the_last_value(notebook, lab):
+    notebook.open(lab.write("hurry.ipynb", IMPORT, SHOW))
+    notebook.run_all()
+    notebook.wait_view()
+    rng, page = np.random.default_rng(7), notebook.page
+    tracks = page.locator("[role=slider]")
+    for _ in range(5):
+        first, second = rng.choice(6, 2, replace=False)
+        tracks.nth(first).focus()
+        for key in rng.choice(["ArrowRight", "PageUp", "ArrowLeft", "PageDown"], 4):
+            page.keyboard.press(key)
+        area = tracks.nth(second).bounding_box()
+        y = area["y"] + area["height"] / 2
+        page.mouse.move(area["x"] + area["width"] / 2, y)
+        page.mouse.down()
+        page.mouse.move(area["x"] + rng.uniform(0.1, 0.9) * area["width"], y, steps=12)
+        page.mouse.up()
+        page.wait_for_timeout(1000)
+        notebook.idle()
+        shown = [float(tracks.nth(k).get_attribute("aria-valuenow")) for k in range(6)]
+        theta = notebook.kernel("panel.values['theta'].tolist()")
+        np.testing.assert_allclose(np.degrees(theta), shown, atol=0.006)
+        expected = robots.kuka_kr6().fk(theta)
+        np.testing.assert_allclose(notebook.wait_transform(TOOL, expected), expected, rtol=0, atol=1e-12)
+    assert notebook.errors == []
+
+
+def test_without_webgl_there_is_a_picture_and_a_sentence(open_page, lab):
+    notebook = open_page()
+    notebook.page.add_init_script(
+        """const original = HTMLCanvasElement.prototype.getContext;
+           HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+             return /webgl/.test(kind) ? null : original.call(this, kind, ...rest);
+           };"""
+    )
+    notebook.open(lab.write("nowebgl.ipynb", IMPORT, SHOW))
+    notebook.run_all()
+    picture = notebook.page.locator(".ck-picture")
+    notebook.page.wait_for_function(
+        "() => document.querySelector('.ck-picture')?.naturalWidth > 0", timeout=30_000
+    )
+    before = picture.get_attribute("src")
+    assert "KUKA KR6 R900 sixx" in picture.get_attribute("alt")
+    assert "no WebGL" in notebook.page.inner_text(".ck-wait")
+    notebook.page.locator("[role=slider]").first.press("PageUp")
+    notebook.page.wait_for_function("(old) => document.querySelector('.ck-picture').src !== old", arg=before)
+    assert "10.0" in picture.get_attribute("alt")
+
+
+@pytest.mark.parametrize(
+    "policy",
+    [
+        None,
+        "script-src 'unsafe-inline' 'unsafe-eval'",  # no blob: the bundle runs by new Function
+        "script-src 'unsafe-inline'",  # no eval either: by an inline script
+    ],
+)
+def test_a_page_of_its_own_turns_offline_under_any_policy(browser, tmp_path, policy):
+    kr6 = robots.kuka_kr6()
+    panel = view.explore(kr6)
+    panel.set(theta=kr6.home + 0.3)
+    page_text = panel.to_html()
+    panel.close()
+    if policy:
+        meta = f'<meta http-equiv="Content-Security-Policy" content="{policy}">'
+        page_text = page_text.replace("<head>", f"<head>{meta}")
+    file = tmp_path / "page.html"
+    file.write_text(page_text, encoding="utf-8")
+
+    context = browser.new_context(offline=True)
+    page = context.new_page()
+    errors, asked = [], []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.on("request", lambda request: asked.append(request.url))
+    page.goto(file.as_uri())
+    page.wait_for_function(DRAWN, timeout=60_000)
+    quaternion = page.evaluate(
+        """() => document.querySelector(".ck-viewer").coursekit.viewer
+                   .scene_tree.find(["ck", "robot", "1"]).object.quaternion.toArray()"""
+    )
+    turned = -0.3  # about -z, as axis 1 of this arm
+    np.testing.assert_allclose(quaternion, [0, 0, np.sin(turned / 2), np.cos(turned / 2)], rtol=0, atol=1e-15)
+    assert errors == []
+    assert [url for url in asked if url.startswith("http")] == []
+    context.close()

@@ -1,0 +1,236 @@
+"""Panels and their controls without a browser."""
+
+import ipywidgets
+import numpy as np
+import pytest
+
+from coursekit import robots, view
+from coursekit.view import Action, Choice, Panel, Plot, Scene, Slider, Sliders, Table, Toggle, joint_sliders
+
+
+@pytest.fixture
+def made():
+    """Close what a test made."""
+    panels = []
+    yield lambda panel: panels.append(panel) or panel
+    for panel in panels:
+        panel.close()
+
+
+def small_panel(**more):
+    kr6 = robots.kuka_kr6()
+    scene = Scene()
+    scene.robot(kr6)
+    calls = []
+
+    def update(values):
+        calls.append(values)
+        scene.set_theta("robot", values["theta"])
+
+    panel = Panel(
+        "test", scene, [joint_sliders(kr6), Toggle("on")], update, lambda values: str(values["on"]), **more
+    )
+    panel.calls = calls
+    return panel
+
+
+def as_the_browser(widget, **state):
+    """A message from the page: a person has changed this control."""
+    widget.set_state(state)
+
+
+def open_models():
+    return len(ipywidgets.widgets.widget._instances)
+
+
+def test_a_slider_moved_in_the_page_moves_the_robot(made):
+    panel = made(small_panel())
+    as_the_browser(panel._controls["theta"].sliders[0], value=30.0, live=True)
+    theta = panel.values["theta"]
+    assert theta[0] == pytest.approx(np.pi / 6, abs=1e-15)
+    np.testing.assert_array_equal(panel.scene.theta(), theta)
+    poses = np.frombuffer(panel.viewer.pose).reshape(-1, 4, 4).transpose(0, 2, 1)
+    np.testing.assert_array_equal(poses, robots.kuka_kr6().displacements(theta))
+
+
+def test_set_is_exact_and_updates_once(made):
+    panel = made(small_panel())
+    panel.calls.clear()
+    theta = [0.4, -0.3, 1 / 3, 0.1, -0.7, 1.1]
+    panel.set(theta=theta, on=True)
+    assert len(panel.calls) == 1
+    assert panel.values["theta"].tolist() == theta and panel.values["on"] is True
+    assert panel.line.value == "True"
+
+
+def test_a_slider_never_answers_its_own_drawing():
+    slider = Slider("x", 0.4, -1, 1)
+    assert slider.value == 0.4
+    as_the_browser(slider, value=0.4)
+    assert slider.si == 0.4
+    as_the_browser(slider, value=7.0)
+    assert slider.value == 1.0, "a value beyond the ends is clipped"
+
+
+def test_units():
+    angle = Slider("a", np.pi / 3, -np.pi, np.pi, "deg")
+    length = Slider("l", 0.25, 0, 1, "mm")
+    assert (angle.value, angle.max, angle.si) == (60, 180, np.pi / 3)
+    assert (length.value, length.max, length.si) == (250, 1000, 0.25)
+    as_the_browser(length, value=125.0)
+    assert length.si == 0.125
+
+
+def test_joint_sliders_serve_another_robot():
+    sliders = joint_sliders(robots.franka_panda())
+    sliders.fit(robots.planar_2r())
+    np.testing.assert_array_equal(sliders.get(), robots.planar_2r().home)
+    assert [slider.layout.display for slider in sliders.sliders][1:3] == [None, "none"]
+    with pytest.raises(ValueError, match="'theta' has 2 sliders, Franka Emika Panda needs 7"):
+        joint_sliders(robots.planar_2r()).fit(robots.franka_panda())
+
+
+def test_a_choice_gives_what_stands_behind_its_label(made):
+    panel = made(Panel("choice", Scene(), [Choice("pick", {"one": 1, "two": 2})]))
+    as_the_browser(panel._controls["pick"], value="two")
+    assert panel.values == {"pick": 2}
+
+
+def test_an_action_and_a_table_and_a_plot(made):
+    drawn, clicked = [], []
+
+    def draw(figure, values):
+        drawn.append(values["x"])
+        figure.subplots().set(xlim=(0, 10), ylim=(0, 10))
+
+    plot = Plot(draw, "An empty plot.", on_click=lambda x, y: clicked.append((x, y)))
+    table = Table("rows", lambda values: (["x"], [[f"{values['x']:.2f}"]]), selectable=True)
+    go = Action("go", act=lambda panel: panel.set(x=0.5))
+    panel = made(Panel("all", Scene(), [Slider("x"), go], below=[plot, table]))
+    assert table.rows == [["0.00"]] and plot.png.startswith(b"\x89PNG")
+
+    panel._message(go, {"type": "press"}, [])
+    assert panel.values["x"] == 0.5 and table.rows == [["0.50"]] and drawn[-1] == 0.5
+
+    as_the_browser(table, value=0)
+    assert panel.values["rows"] == 0
+
+    panel._message(plot, {"type": "click", "x": 0.001, "y": 0.001}, [])
+    assert clicked == [], "beside the axes"
+    panel._message(plot, {"type": "click", "x": 0.55, "y": 0.55}, [])
+    ((x, y),) = clicked
+    assert 3 < x < 7 and 3 < y < 7
+
+
+def test_a_plot_waits_while_a_slider_is_dragged_and_is_right_at_rest(made):
+    drawn = []
+    plot = Plot(lambda figure, values: drawn.append(values["x"]), "Nothing.")
+    panel = made(Panel("drag", Scene(), [Slider("x")], below=[plot]))
+    plot.has_time = lambda: False
+    drawn.clear()
+    for value in (0.1, 0.2, 0.3):
+        as_the_browser(panel._controls["x"], value=value, live=True)
+    assert drawn == []
+    as_the_browser(panel._controls["x"], value=0.3, live=False)
+    assert drawn == [0.3]
+
+
+def test_an_action_can_play_a_motion_and_reset_ends_it(made):
+    kr6 = robots.kuka_kr6()
+    scene = Scene()
+    scene.robot(kr6)
+    thetas = np.linspace(kr6.home, kr6.home + 0.5, 11)
+    go = Action("go", act=lambda panel: panel.play_theta(thetas))
+    panel = made(Panel("motion", scene, [go, Toggle("on")]))
+    panel._message(go, {"type": "press"}, [])
+    assert panel.viewer.motion["frames"] == 11 and panel.viewer.frame == 0
+    np.testing.assert_array_equal(scene.theta(), kr6.home)
+    as_the_browser(panel._controls["on"], value=True)
+    assert panel.viewer.frame == 0
+    panel.reset()
+    assert panel.viewer.frame == -1
+
+
+def test_an_error_of_the_explorer_is_shown(made):
+    def update(values):
+        if values["x"] > 0.5:
+            raise ValueError("too far")
+
+    panel = made(Panel("error", Scene(), [Slider("x")], update))
+    with pytest.raises(ValueError, match="too far"):
+        panel.set(x=0.9)
+    assert panel.line.value == "ValueError: too far"
+
+
+def test_running_a_cell_again_leaves_no_widget_models(made):
+    made(view.explore(robots.kuka_kr6()))
+    before = open_models()
+    for _ in range(5):
+        made(view.explore(robots.kuka_kr6()))
+        assert open_models() == before
+
+
+def test_close_leaves_nothing():
+    before = open_models()
+    small_panel(below=[Plot(lambda figure, values: None, "Nothing.")]).close()
+    assert open_models() == before
+
+
+def test_reset_goes_back_and_keeps_the_chosen_robot(made):
+    panel = made(view.explore())
+    panel.set(robot=robots.franka_panda().name)
+    chosen = panel.values["robot"]
+    start = panel.values["theta"]
+    panel.set(theta=start + 0.1, standard=True)
+    panel.reset()
+    np.testing.assert_array_equal(panel.values["theta"], start)
+    assert panel.values["robot"] == chosen and not panel.values["standard"]
+
+
+@pytest.mark.parametrize("name", robots.all())
+def test_every_arm_can_be_explored_and_its_conventions_agree(made, name):
+    robot = robots.all()[name]
+    panel = made(view.explore(robot))
+    panel.set(theta=robot.home * 0.5, standard=True, modified=True, screws=True, skeleton=True)
+    if robot.standard_dh is None and robot.modified_dh is None:
+        assert "no DH table" in panel.line.value
+    else:
+        assert float(panel.line.value.rsplit(": ", 1)[1]) < 1e-14
+    assert repr(panel).startswith(f"Explorer of DH and PoE: {robot.name}: joints (") and "\n" not in repr(
+        panel
+    )
+
+
+def test_what_the_notebook_stores_is_one_stable_line_and_a_picture(made):
+    panel = made(view.explore(robots.kuka_kr6()))
+    data, metadata = panel._repr_mimebundle_()
+    assert data["text/plain"] == f"Explorer of DH and PoE: {panel.scene.text()}"
+    assert "(0.0, -90.0, 90.0, 0.0, 0.0, 0.0) deg" in data["text/plain"] and "\n" not in data["text/plain"]
+    assert data["image/png"].startswith(b"\x89PNG") and len(data["image/png"]) < 60_000
+    assert metadata["image/png"]["alt"] == data["text/plain"]
+
+
+def test_every_widget_has_a_stable_repr():
+    shown = [Slider("x"), Toggle("t"), Choice("c", ["a"]), Action("go"), Sliders("v", [Slider("x")])]
+    shown += [Plot(lambda figure, values: None, "Seen."), Table("r", lambda values: ([], []))]
+    for widget in shown:
+        assert " at 0x" not in repr(widget) and "\n" not in repr(widget)
+
+
+@pytest.mark.parametrize(
+    "call, message",
+    [
+        (lambda: Slider("x", low=1, high=0), "slider 'x': low must be below high, got 1 and 0"),
+        (lambda: Slider("x").put(3), r"slider 'x' goes over \[-1, 1\], got 3"),
+        (lambda: Choice("c", ["a", "b"], start="z"), "choice 'c' has no 'z'; it has: a, b"),
+        (lambda: joint_sliders(robots.kuka_kr6()).put([1, 2]), r"'theta' takes 6 numbers, got shape \(2,\)"),
+        (
+            lambda: Panel("p", Scene(), [Slider("x"), Slider("x")]),
+            "panel 'p': two controls have the same name",
+        ),
+        (lambda: Panel("p", Scene(), [Slider("x")]).set(y=1), "panel 'p' has no control 'y'; it has: x"),
+    ],
+)
+def test_mistakes_are_named(call, message):
+    with pytest.raises(ValueError, match=message):
+        call()

@@ -1,0 +1,162 @@
+"""The viewer without a browser: what it puts into its state and into its messages."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import umsgpack
+
+from coursekit import robots
+from coursekit.view.scene import Scene
+from coursekit.view.viewer import Viewer, bundle, column_major
+
+
+@pytest.fixture
+def scene():
+    scene = Scene()
+    scene.robot(robots.kuka_kr6())
+    return scene
+
+
+@pytest.fixture
+def viewer(scene):
+    made = Viewer(scene)
+    made.sent = []
+    made.send = lambda content, buffers=None: made.sent.append((content, buffers))
+    yield made
+    made.layout.close()
+    made.close()
+
+
+def keys_sent(viewer):
+    return [key for content, _ in viewer.sent for key in content["keys"]]
+
+
+def test_the_state_holds_every_command_of_the_scene(viewer, scene):
+    state = viewer.get_state()
+    assert list(state["commands"]) == list(scene.commands)
+    for key, command in scene.commands.items():
+        assert umsgpack.unpackb(state["commands"][key])["path"] == command["path"]
+
+
+def test_the_bundle_is_never_part_of_the_state(viewer):
+    state = viewer.get_state()
+    assert len(bundle()) > 100_000
+    assert all(bundle()[:64] not in data for data in state["commands"].values())
+    assert sum(len(data) for data in state["commands"].values()) < 600_000
+
+
+def test_a_pose_is_sixteen_float64_per_path_column_by_column(viewer, scene):
+    poses = np.frombuffer(viewer.pose).reshape(-1, 4, 4).transpose(0, 2, 1)
+    np.testing.assert_array_equal(poses, scene.pose())
+    assert viewer.moving == scene.moving
+
+
+def test_moving_the_robot_sends_a_pose_and_no_command(viewer, scene):
+    theta = np.array([0.1, -0.2, 0.3, -0.4, 0.5, -0.6])
+    scene.set_theta("robot", theta)
+    viewer.sync()
+    assert viewer.sent == []
+    poses = np.frombuffer(viewer.pose).reshape(-1, 4, 4).transpose(0, 2, 1)
+    np.testing.assert_array_equal(poses, robots.kuka_kr6().displacements(theta))
+
+
+def test_sync_sends_only_what_changed(viewer, scene):
+    scene.point("/ck/here", [0.1, 0.2, 0.3])
+    viewer.sync()
+    assert keys_sent(viewer) == ["/ck/here"]
+    viewer.sent.clear()
+    viewer.sync()
+    assert viewer.sent == []
+    scene.show("/ck/here", False)
+    viewer.sync()
+    assert [umsgpack.unpackb(data)["value"] for _, buffers in viewer.sent for data in buffers] == [False]
+
+
+def test_removing_a_drawing_deletes_its_path_and_sends_again_what_stays_below(viewer, scene):
+    scene.point("/ck/a", [0, 0, 0])
+    scene.point("/ck/a/b", [0, 0, 0])
+    scene.point("/ck/ab", [0, 0, 0])
+    viewer.sync()
+    viewer.sent.clear()
+    del scene.commands["/ck/a"]
+    viewer.sync()
+    ((content, _),) = viewer.sent
+    assert content["gone"] == ["/ck/a"] and content["delete"] == ["/ck/a"]
+    assert content["keys"] == ["/ck/a/b"]
+    assert "/ck/a" not in viewer.get_state()["commands"]
+
+
+def test_a_motion_ends_exactly_and_a_new_pose_ends_the_motion(viewer, scene):
+    thetas = np.linspace(np.zeros(6), np.full(6, 0.5), 101)
+    poses = robots.kuka_kr6().displacements(thetas)
+    viewer.play(poses, fps=30, texts=[f"pose {k}" for k in range(101)])
+    assert viewer.motion["frames"] == 101 and viewer.frame == 0
+    sent = np.frombuffer(viewer.motion_poses).reshape(101, 6, 4, 4).transpose(0, 1, 3, 2)
+    np.testing.assert_array_equal(sent, poses)
+    first = viewer.motion
+    viewer.play(poses)
+    assert viewer.motion != first, "the same motion again must play again"
+    scene.point("/ck/here", [0, 0, 0])
+    viewer.sync()
+    assert viewer.frame == 0, "something drawn beside it does not stop the motion"
+    scene.set_theta("robot", thetas[7])
+    viewer.sync()
+    assert viewer.frame == -1
+    viewer.stop()
+    assert viewer.motion == {}
+
+
+@pytest.mark.parametrize(
+    "call, message",
+    [
+        (
+            lambda v: v.set_pose(np.zeros((5, 4, 4))),
+            r"transforms must have shape \(6, 4, 4\), got \(5, 4, 4\)",
+        ),
+        (
+            lambda v: v.play(np.zeros((6, 4, 4))),
+            r"transforms must have shape \(N, 6, 4, 4\), got \(6, 4, 4\)",
+        ),
+        (lambda v: v.play(np.zeros((3, 6, 4, 4)), texts=["one"]), "one line for each of the 3 frames, got 1"),
+        (lambda v: column_major(np.zeros((2, 3))), r"shape \(..., 4, 4\), got \(2, 3\)"),
+    ],
+)
+def test_wrong_shapes_are_named(viewer, call, message):
+    with pytest.raises(ValueError, match=message):
+        call(viewer)
+
+
+def test_someone_who_knows_meshcat_can_draw_too(viewer):
+    del viewer.send  # the real one
+    box = viewer.meshcat["mine"]
+    import meshcat.geometry  # after the viewer has imported meshcat, and its warning with it
+
+    box.set_object(meshcat.geometry.Box([0.1, 0.2, 0.3]))
+    packed = [data for key, data in viewer.get_state()["commands"].items() if key.startswith("meshcat:")]
+    assert [umsgpack.unpackb(data)["path"] for data in packed] == ["/meshcat/mine"]
+
+
+def test_the_line_of_text_is_stable(viewer):
+    line = f"Viewer({viewer.scene.text()})"
+    assert repr(viewer) == line and "KUKA KR6 R900 sixx" in line and "\n" not in line
+    data, metadata = viewer._repr_mimebundle_()
+    assert data["text/plain"] == line and metadata["image/png"]["alt"] == line
+    assert data["image/png"].startswith(b"\x89PNG")
+
+
+def test_a_page_of_its_own_needs_no_network(viewer):
+    page = viewer.to_html()
+    assert len(page) < 1_000_000
+    assert "http://" not in page.replace("http://www.w3.org", "") and "https://" not in page
+    assert "src=" not in page and "KUKA KR6 R900 sixx" in page
+
+
+def test_neither_meshcat_nor_its_warnings_are_imported():
+    code = "import sys; from coursekit import robots, view; view.explore(robots.planar_2r())"
+    code += "; print('meshcat' in sys.modules)"
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", code], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.strip() == "False"
