@@ -1,4 +1,4 @@
-"""Exercises of notebook 03: inverse kinematics of a six-axis arm with a spherical wrist, and Newton's method."""
+"""Exercises of notebook 03: every solution of a six-axis arm with a spherical wrist, and Newton's method."""
 
 from __future__ import annotations
 
@@ -47,15 +47,20 @@ def _turn(axis, angle):
     return R
 
 
+def _wrist_in_plane(t2, t3, lengths):
+    """Where the wrist centre is in the plane of the arm: out from axis 1, up from the shoulder."""
+    a1, _, a2, a3, d4 = lengths
+    out = a1 + a2 * np.cos(t2) + d4 * np.cos(t2 + t3) + a3 * np.sin(t2 + t3)
+    return out, -a2 * np.sin(t2) - d4 * np.sin(t2 + t3) + a3 * np.cos(t2 + t3)
+
+
 def _forward(theta, lengths, tool):
     """Tool pose of an arm built like the KR6."""
-    a1, d1, a2, a3, d4 = lengths
     t1, t2, t3, t4, t5, t6 = theta
-    turned, bent = _turn(2, -t1), _turn(1, t2)
-    wrist = np.array([a1, 0, d1]) + bent @ [a2, 0, 0] + bent @ _turn(1, t3) @ [d4, 0, a3]
+    out, up = _wrist_in_plane(t2, t3, lengths)
     T = np.eye(4)
-    T[:3, :3] = turned @ bent @ _turn(1, t3) @ _turn(0, -t4) @ _turn(1, t5) @ _turn(0, -t6)
-    T[:3, 3] = turned @ wrist + tool * T[:3, 0]
+    T[:3, :3] = _turn(2, -t1) @ _turn(1, t2 + t3) @ _turn(0, -t4) @ _turn(1, t5) @ _turn(0, -t6)
+    T[:3, 3] = _turn(2, -t1) @ [out, 0, lengths[1] + up] + tool * T[:3, 0]
     return T
 
 
@@ -64,12 +69,11 @@ def _arm(rng):
     while True:
         theta, lengths = _angles(rng, 6), _lengths(rng)
         theta[4] = rng.choice([-1, 1]) * rng.uniform(0.3, 2.8)
-        a1, d1, a2, a3, d4 = lengths
-        out = a1 + a2 * np.cos(theta[1]) + d4 * np.cos(theta[1] + theta[2]) + a3 * np.sin(theta[1] + theta[2])
-        up = -a2 * np.sin(theta[1]) - d4 * np.sin(theta[1] + theta[2]) + a3 * np.cos(theta[1] + theta[2])
-        shortest, longest = abs(a2 - np.hypot(a3, d4)), a2 + np.hypot(a3, d4)
+        a1, _, a2, a3, d4 = lengths
+        out, up = _wrist_in_plane(theta[1], theta[2], lengths)
+        nearest, farthest = abs(a2 - np.hypot(a3, d4)) + 0.05, a2 + np.hypot(a3, d4) - 0.05
         reach = np.hypot(-abs(out) - a1, up), np.hypot(abs(out) - a1, up)  # over the back, to the front
-        if abs(out) > 0.1 and shortest + 0.05 < min(reach) and max(reach) < longest - 0.05:
+        if abs(out) > 0.1 and nearest < min(reach) and max(reach) < farthest:
             return theta, lengths, rng.uniform(0.05, 0.2)
 
 
@@ -85,11 +89,14 @@ def _turn_about(rng):
 
 
 def _planar_target(rng):
-    """A wrist centre in front of the arm: r, z and the lengths."""
-    theta, lengths, tool = _arm(rng)
-    T = _forward(theta, lengths, tool)
-    x, y, z = T[:3, 3] - tool * T[:3, 0]
-    return np.hypot(x, y), z, lengths
+    """A wrist centre in front, so near that a wrong sign of the forearm's square has an answer, too."""
+    while True:
+        theta, lengths, _ = _arm(rng)
+        out, up = _wrist_in_plane(theta[1], theta[2], lengths)
+        a1, d1, a2, a3, d4 = lengths
+        fore = np.hypot(a3, d4)
+        if (abs(out) - a1) ** 2 + up**2 < a2**2 - fore**2 + 1.99 * a2 * fore:
+            return abs(out), d1 + up, lengths
 
 
 def _wrist(rng):
@@ -119,11 +126,9 @@ def _turns_x_to_y(_f, args, t):
 
 
 def _reaches(_f, args, solutions):
-    r, z, (a1, d1, a2, a3, d4) = args
-    t2, t3 = solutions.T
-    out = a1 + a2 * np.cos(t2) + d4 * np.cos(t2 + t3) + a3 * np.sin(t2 + t3)
-    up = d1 - a2 * np.sin(t2) - d4 * np.sin(t2 + t3) + a3 * np.cos(t2 + t3)
-    return bool(np.allclose(out, r, atol=1e-5) and np.allclose(up, z, atol=1e-5))
+    r, z, lengths = args
+    out, up = _wrist_in_plane(*solutions.T, lengths)
+    return bool(np.allclose(out, r, atol=1e-5) and np.allclose(lengths[1] + up, z, atol=1e-5))
 
 
 def _gives_R(_f, args, solutions):

@@ -60,14 +60,14 @@ def turn_by_arctan(k, x, y):
 
 
 def _elbow(r, z, lengths, height=1.0, psi=1.0, sign=-1.0):
-    """Both solutions, with the shoulder's height, the angle psi and the sign of a^2 as the mistake has them."""
+    """Both solutions, with the shoulder's height, psi and the sign of the forearm's square as given."""
     a1, d1, a2, a3, d4 = lengths
     x, y, fore = r - a1, z - d1, np.hypot(a3, d4)
     b = np.hypot(x, y)
     phi, psi = np.arctan2(y + (1 - height) * d1, x), psi * np.arctan2(a3, d4)
     bend = (b**2 - a2**2 + sign * fore**2) / (2 * a2 * fore)
-    beta = np.pi - np.arccos(np.clip(bend, -1, 1))
-    alpha = np.arccos(np.clip((b**2 + a2**2 - fore**2) / (2 * a2 * b), -1, 1))
+    beta = np.pi - np.arccos(bend)
+    alpha = np.arccos((b**2 + a2**2 - fore**2) / (2 * a2 * b))
     return np.array([[-phi - alpha, np.pi - beta + psi], [-phi + alpha, beta - np.pi + psi]])
 
 

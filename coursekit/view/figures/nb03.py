@@ -15,7 +15,9 @@ def elbows(lengths, solutions):
     """The arm in its own plane for both (theta2, theta3): the upper elbow solid, the lower one dashed."""
     a1, d1, a2, a3, d4 = 1000 * np.asarray(lengths)
     ax = _axes((6.4, 4.6))
-    for (t2, t3), color, style, side in zip(solutions, ("accent", "trace"), ("-", "--"), (-1, 1), strict=True):
+    for (t2, t3), color, style, side in zip(
+        solutions, ("accent", "trace"), ("-", "--"), (-1, 1), strict=True
+    ):
         elbow = np.array([a1 + a2 * np.cos(t2), d1 - a2 * np.sin(t2)])
         bent = t2 + t3
         knee = elbow + a3 * np.array([np.sin(bent), np.cos(bent)])
@@ -30,7 +32,7 @@ def elbows(lengths, solutions):
     ax.text((a1 + P[0]) / 2 + 12, (d1 + P[1]) / 2, "b", color=INK, fontsize=12, style="italic")
     ax.plot(*P, "D", ms=8, color=INK)
     ax.text(P[0] + 22, P[1] + 12, "P", color=INK, fontsize=12, style="italic")
-    ax.set(xlabel="r: distance from axis 1 [mm]", ylabel="z [mm]", aspect="equal", xlim=(-560, 660))
+    ax.set(xlabel="r: distance from axis 1 [mm]", ylabel="z [mm]", aspect="equal", xlim=(-620, 760))
     _show()
 
 
@@ -47,11 +49,11 @@ def error_along_path(error):
 
 
 def newton(runs):
-    """Error before each step. runs: label -> list of |e|."""
+    """Largest entry of FK - T_sd before each step. runs: label -> list of errors."""
     ax = _axes((6.4, 3.6))
     for (label, errors), (color, style) in zip(runs.items(), STYLES, strict=False):
         ax.semilogy(np.maximum(errors, 1e-16), style, ms=5, color=_color(color), label=label)
-    ax.set(xlabel="step", ylabel="|e| [rad], [m]")
+    ax.set(xlabel="step", ylabel="largest entry of FK − T [m], [1]")
     ax.legend(frameon=False)
     _show()
 

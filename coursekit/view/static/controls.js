@@ -2,7 +2,8 @@
 // One module for all of them: the widget's `kind` picks the maker. A value is sent only when a person changes it,
 // never when a control is drawn, so drawing cannot disturb what the kernel has set.
 
-let serial = 0;
+// A name for the page's only element of this kind: a counter would not do, each widget runs its own copy of this module.
+const unique = (kind) => `ck-${kind}-${Math.random().toString(36).slice(2)}`;
 
 function element(tag, attributes = {}, ...children) {
   const node = document.createElement(tag);
@@ -29,7 +30,7 @@ function slider(model, el) {
 }
 
 function buildSlider(model, el) {
-  const id = `ck-slider-${(serial += 1)}`;
+  const id = unique("slider");
   const [min, max, step] = ["min", "max", "step"].map((name) => model.get(name));
   const label = model.get("label"), unit = model.get("unit"), digits = model.get("digits");
   const spoken = { deg: "degrees", mm: "millimetres", m: "metres" }[unit] || unit;
@@ -164,7 +165,7 @@ function text(model, el) {
 function table(model, el) {
   const body = element("tbody"), head = element("thead");
   const caption = element("caption", {}, model.get("label"));
-  const group = `ck-table-${(serial += 1)}`;
+  const group = unique("table");
   const draw = () => {
     const focused = document.activeElement && body.contains(document.activeElement);
     const selectable = model.get("selectable"), value = model.get("value");
