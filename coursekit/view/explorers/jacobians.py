@@ -1,0 +1,163 @@
+"""Notebook 05: ellipsoids at the tool, one Jacobian by four methods, Newton against damped least squares."""
+
+import numpy as np
+
+from coursekit.kinematics import ik, jacobians, robots, singularity
+from coursekit.view import text
+from coursekit.view.controls import Action, Slider, Toggle, joint_sliders
+from coursekit.view.panel import Panel
+from coursekit.view.plots import Plot
+from coursekit.view.scene import Scene
+
+STRETCHED = (0.0, 0.6, 0.0, -0.08, 0.0, 0.5, 0.7)  # of the Panda: elbow almost straight
+NEARLY_ZERO = 0.05  # rad or m; the start of every other arm
+STEPS = 50
+SCALE = {"linear": 0.3, "angular": 0.1}  # m drawn for 1 m/s and for 1 rad/s, on a stage of 1 m
+UNIT = {"linear": "m/s", "angular": "rad/s"}
+COLOR = {"linear": "trace", "angular": "accent"}
+METHODS = {
+    "skew": jacobians.skew_theory,
+    "derivative": jacobians.by_matrix_derivative,
+    "differences": jacobians.by_differences,
+}
+
+
+def explore_jacobians(robot=None, height=470):
+    """Open the explorer of Jacobian methods.
+
+    The sliders set the configuration. At the tool stand the ellipsoids of its linear and angular velocity
+    for joint rates of length 1; the text gives their true half axes. Newton's method and damped least squares
+    start where the arm stands and go for the frame {d}; the plot shows how long their steps are.
+
+    Parameters
+    ----------
+    robot : Robot, optional
+        Any arm; the Franka Panda without it.
+    """
+    robot = robots.franka_panda() if robot is None else robot
+    near = _nearly_singular(robot)
+    runs = _Runs(robot)
+    scene = Scene()
+    scene.robot(robot, near)
+    scene.frame("/ck/target", runs.target, letter="d", size=0.14 * scene.size)
+    drawn = {part: round(scale * scene.size, 2) for part, scale in SCALE.items()}  # so that the text is exact
+
+    def update(values):
+        theta = values["theta"]
+        scene.set_theta("robot", theta)
+        J, tool = robot.jacobian_geometric(theta), robot.fk(theta)[:3, 3]
+        for part, scale in drawn.items():
+            found, path = jacobians.ellipsoid(J, part), f"/ck/{part}"
+            scene.ellipsoid(path, found.axes, scale * found.lengths, tool, COLOR[part])
+            scene.show(path, values[part])
+
+    def words(values):
+        lines = [*_lengths(robot, values, drawn), *_methods(robot, values["theta"]), runs.words(values)]
+        return "\n".join(lines)
+
+    return Panel(
+        "jacobians",
+        scene,
+        [
+            joint_sliders(robot, near),
+            Toggle("linear", "linear ellipsoid (teal)", start=True),
+            Toggle("angular", "angular ellipsoid (pink)"),
+            Slider("damping", 0.1, 0.01, 1.0, step=0.01, label="damping k"),
+            Action("bent", "home pose", lambda panel: panel.set(theta=robot.home)),
+            Action("near", "near the singularity", lambda panel: panel.set(theta=near)),
+            Action("newton", "play Newton", lambda panel: runs.play(panel, "newton")),
+            Action("damped", "play damped", lambda panel: runs.play(panel, "damped")),
+        ],
+        update,
+        words,
+        below=[
+            Plot(
+                runs.plot,
+                "How far the joints turn in each step towards {d}: Newton (circles) leaps where the arm "
+                "is nearly singular, damped least squares (squares) does not.",
+            )
+        ],
+        title="Explorer of Jacobian methods",
+        height=height,
+    )
+
+
+class _Runs:
+    """Newton and damped least squares from where the arm stands to the target."""
+
+    def __init__(self, robot):
+        self.robot = robot
+        goal = robot.home
+        if (
+            singularity.sigma_min(robot, goal) < 0.05
+        ):  # a goal that is singular itself shows nothing but slowness
+            goal = np.clip(goal + 0.5, robot.q_min, robot.q_max)
+        self.target = robot.fk(goal)
+        self._key, self._found = None, {}
+
+    def found(self, values):
+        """Name -> Numeric, computed once for the same sliders."""
+        theta, k = values["theta"], values["damping"]
+        key = (*theta, k)
+        if key != self._key:
+            common = {"max_iterations": STEPS, "tol": 1e-8, "rows": "all" if self.robot.n > 5 else "linear"}
+            self._key = key
+            self._found = {
+                "newton": ik.newton(self.robot, self.target, theta, **common),
+                "damped": ik.damped_least_squares(self.robot, self.target, theta, damping=k, **common),
+            }
+        return self._found
+
+    def play(self, panel, name):
+        """Show the steps of one method, two a second."""
+        steps = [step.theta for step in self.found(panel.values)[name].history]
+        panel.play_theta(np.array(steps), fps=2.0)
+
+    def words(self, values):
+        """Steps and longest step of both methods."""
+        parts = []
+        for name, title in (
+            ("newton", "Newton"),
+            ("damped", f"damped, k = {text.number(values['damping'], 2)}"),
+        ):
+            found = self.found(values)[name]
+            longest = max(step.step for step in found.history)
+            count = f"{found.iterations} steps" if found.converged else f"not there after {STEPS} steps"
+            parts.append(f"{title}: {count}, the longest {text.number(longest, 2)} rad")
+        return "to {d}  " + "; ".join(parts)
+
+    def plot(self, figure, values):
+        """Length of each step, on a log axis."""
+        ax = figure.subplots()
+        for (name, found), style in zip(self.found(values).items(), ("o-", "s--"), strict=True):
+            steps = [step.step for step in found.history[1:]]
+            ax.semilogy(range(1, len(steps) + 1), np.maximum(steps, 1e-9), style, ms=4, label=name)
+        ax.set(xlabel="step", ylabel="length of the step [rad]", ylim=(1e-9, 1e3))
+        ax.set_yticks([1e-8, 1e-6, 1e-4, 1e-2, 1, 1e2])
+        ax.minorticks_off()  # drawing them takes longer than all the rest
+        ax.legend(frameon=False)
+
+
+def _nearly_singular(robot):
+    """A start close to a singular configuration and inside the limits."""
+    theta = np.array(STRETCHED) if robot.n == len(STRETCHED) else np.full(robot.n, NEARLY_ZERO)
+    return np.clip(theta, robot.q_min, robot.q_max)
+
+
+def _lengths(robot, values, drawn):
+    """Half axes of the ellipsoids, and the scale of the picture."""
+    J = robot.jacobian_geometric(values["theta"])
+    for part, scale in drawn.items():
+        lengths, unit = jacobians.ellipsoid(J, part).lengths, UNIT[part]
+        shown = f"drawn {text.number(1000 * scale, 0)} mm per {unit}" if values[part] else "hidden"
+        yield f"{part:<8} half axes {text.row(lengths)} {unit}, {shown}"
+
+
+def _methods(robot, theta):
+    """How far three methods are from the product of exponentials, and the smallest singular value."""
+    J = robot.jacobian_geometric(theta)
+    apart = ", ".join(
+        f"{name} {np.abs(method(robot, theta) - J).max():.0e}" for name, method in METHODS.items()
+    )
+    yield f"largest difference to the exponentials: {apart}"
+    yield f"smallest singular value {text.number(singularity.sigma_min(robot, theta))}"

@@ -1,0 +1,109 @@
+"""The explorer of Jacobian methods without a browser."""
+
+import ipywidgets
+import numpy as np
+import pytest
+
+from coursekit import ik, jacobians, robots, singularity, view
+from coursekit.view import text
+
+
+@pytest.fixture
+def panel():
+    panel = view.explore_jacobians()
+    yield panel
+    panel.close()
+
+
+def test_it_opens_near_a_singularity_and_inside_the_limits(panel):
+    panda = robots.franka_panda()
+    theta = panel.scene.theta()
+    assert panda.within_limits(theta)
+    assert singularity.sigma_min(panda, theta) < 0.06
+    assert panel.values["linear"] and not panel.values["angular"]
+
+
+@pytest.mark.parametrize("part", ["linear", "angular"])
+def test_the_text_gives_the_half_axes_of_the_arm_as_it_stands(panel, part):
+    panda, theta = robots.franka_panda(), np.array([0.3, -0.4, 0.2, -1.5, 0.6, 1.2, 0.1])
+    panel.set(theta=theta)
+    found = jacobians.ellipsoid(panda.jacobian_body(theta), part)
+    (line,) = [line for line in panel.line.value.splitlines() if line.startswith(part)]
+    assert text.row(found.lengths) in line
+
+
+def test_the_ellipsoids_are_drawn_at_the_tool_to_the_scale_the_text_gives(panel):
+    panda, theta = robots.franka_panda(), np.array([0.3, -0.4, 0.2, -1.5, 0.6, 1.2, 0.1])
+    panel.set(theta=theta, angular=True)
+    for part in ("linear", "angular"):
+        placed = panel.scene.parts[f"/ck/{part}"][0].pose
+        np.testing.assert_allclose(placed[:3, 3], panda.fk(theta)[:3, 3], rtol=0, atol=1e-12)
+        (line,) = [line for line in panel.line.value.splitlines() if line.startswith(part)]
+        scale = float(line.split("drawn ")[1].split(" mm")[0]) / 1000
+        lengths = jacobians.ellipsoid(panda.jacobian_geometric(theta), part).lengths
+        np.testing.assert_allclose(np.linalg.norm(placed[:3, :3], axis=0), scale * lengths, rtol=1e-9)
+
+
+def test_the_switches_hide_the_ellipsoids(panel):
+    panel.set(linear=False, angular=True)
+    assert not panel.scene.visible("/ck/linear")
+    assert panel.scene.visible("/ck/angular")
+    assert "hidden" in panel.line.value.splitlines()[0]
+
+
+def test_the_methods_agree_and_the_text_says_how_far(panel):
+    line = next(line for line in panel.line.value.splitlines() if "exponentials" in line)
+    skew, derivative, differences = (float(part.split()[-1]) for part in line.split(": ")[1].split(", "))
+    assert skew < 1e-14 and derivative < 1e-14 and 0 < differences < 3e-10
+
+
+def test_newton_leaps_and_damping_tames_it(panel):
+    panda, start = robots.franka_panda(), panel.values["theta"]
+    target = panda.fk(panda.home)
+    longest = {}
+    for name, run in {
+        "Newton": ik.newton(panda, target, start, tol=1e-8),
+        "damped, k = 0.10": ik.damped_least_squares(panda, target, start, damping=0.1, tol=1e-8),
+    }.items():
+        longest[name] = max(step.step for step in run.history)
+        assert f"{name}: {run.iterations} steps, the longest {longest[name]:.2f} rad" in panel.line.value
+    assert longest["Newton"] > 4 * longest["damped, k = 0.10"]
+    panel.set(damping=0.3)
+    assert "damped, k = 0.30" in panel.line.value
+
+
+def test_the_actions_move_the_arm_and_play_both_runs(panel):
+    near = panel.values["theta"]
+    panel._controls["newton"].act(panel)
+    panel._controls["damped"].act(panel)
+    panel._controls["bent"].act(panel)
+    np.testing.assert_array_equal(panel.scene.theta(), robots.franka_panda().home)
+    assert "Newton: 0 steps" in panel.line.value  # it stands at the target
+    panel._controls["newton"].act(panel)
+    panel._controls["near"].act(panel)
+    np.testing.assert_array_equal(panel.scene.theta(), near)
+
+
+@pytest.mark.parametrize("name", robots.all())
+def test_every_arm(name):
+    robot = robots.all()[name]
+    panel = view.explore_jacobians(robot)
+    try:
+        assert robot.within_limits(panel.scene.theta())
+        assert "Newton: " in panel.line.value and "Error" not in panel.line.value
+    finally:
+        panel.close()
+
+
+def test_a_picture_a_line_and_no_leak():
+    view.explore_jacobians().close()
+    before = len(ipywidgets.widgets.widget._instances)
+    panel = view.explore_jacobians()
+    bundle, _ = panel._repr_mimebundle_()
+    assert bundle["image/png"].startswith(b"\x89PNG")
+    assert bundle["text/plain"].startswith("Explorer of Jacobian methods: Franka Emika Panda")
+    open_now = len(ipywidgets.widgets.widget._instances)
+    panel = view.explore_jacobians()  # as when the cell runs again
+    assert len(ipywidgets.widgets.widget._instances) == open_now
+    panel.close()
+    assert len(ipywidgets.widgets.widget._instances) == before
