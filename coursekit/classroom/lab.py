@@ -1,0 +1,97 @@
+"""`coursekit lab`: JupyterLab on the course's notebooks, with everything it writes kept inside the folder.
+
+Settings, kernels' connection files, IPython's history, matplotlib's font cache and the like go to
+`.venv/lab/`, so that deleting the course's folder leaves nothing behind and a read-only home is no obstacle.
+
+>>> from coursekit.classroom import lab
+>>> [name for name in lab.private_folders("/tmp/course") if name.startswith("JUPYTER")]
+['JUPYTER_CONFIG_DIR', 'JUPYTER_DATA_DIR', 'JUPYTER_RUNTIME_DIR']
+"""
+
+import os
+import sys
+from pathlib import Path
+
+COURSE = Path(__file__).resolve().parents[2]
+
+
+def private_folders(folder):
+    """The environment variables that make Jupyter, IPython and matplotlib write into one folder only.
+
+    Parameters
+    ----------
+    folder : str or Path
+        Where everything goes; it need not exist yet.
+
+    Returns
+    -------
+    dict of str to str
+        Names of environment variables -> absolute paths below `folder`.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from coursekit.classroom import lab
+    >>> Path(lab.private_folders("/tmp/course")["IPYTHONDIR"]).relative_to("/tmp/course").as_posix()
+    'ipython'
+    """
+    folder = Path(folder).absolute()
+    return {
+        "JUPYTER_CONFIG_DIR": str(folder / "config"),
+        "JUPYTER_DATA_DIR": str(folder / "data"),
+        "JUPYTER_RUNTIME_DIR": str(folder / "runtime"),
+        "IPYTHONDIR": str(folder / "ipython"),
+        "MPLCONFIGDIR": str(folder / "matplotlib"),
+        "XDG_CACHE_HOME": str(folder / "cache"),
+    }
+
+
+def start(arguments=(), notebooks=None, folder=None):
+    """Open the course in JupyterLab; returns when the server is stopped.
+
+    Parameters
+    ----------
+    arguments : sequence of str
+        Passed on to `jupyter lab`, for example ["--no-browser", "--port=8899"].
+    notebooks : str or Path, optional
+        The folder to open; the course's notebooks/ unless told otherwise.
+    folder : str or Path, optional
+        Where JupyterLab keeps what it writes; `.venv/lab` in the course's folder unless told otherwise.
+
+    Raises
+    ------
+    ValueError
+        If there is no such folder, for instance because the package was installed without its course.
+
+    Examples
+    --------
+    >>> from coursekit.classroom import lab
+    >>> lab.start(["--no-browser"])             # doctest: +SKIP
+    """
+    notebooks = Path(notebooks or COURSE / "notebooks").absolute()
+    if not notebooks.is_dir():
+        raise ValueError(
+            f"JupyterLab was to open the folder {notebooks}, which does not exist; the course's notebooks "
+            "stand beside its package: start it from the .venv in the course's folder"
+        )
+    folder = Path(folder) if folder else COURSE / ".venv" / "lab"
+    first_time = not folder.exists()
+    for variable, path in private_folders(folder).items():
+        Path(path).mkdir(parents=True, exist_ok=True)
+        os.environ[variable] = path
+    # Terminals and `!` commands inside JupyterLab then find this environment's programs.
+    os.environ["PATH"] = os.pathsep.join(
+        [str(Path(sys.executable).parent), os.environ.get("PATH", os.defpath)]
+    )
+
+    from jupyterlab.labapp import LabApp  # only now: it reads the variables above when it is imported
+
+    own = [f"--ServerApp.root_dir={notebooks}"]
+    if first_time:
+        first_notebook = min(notebooks.glob("0*.ipynb"), default=None)
+        if first_notebook:
+            own.append(f"--LabApp.default_url=/lab/tree/{first_notebook.name}")
+    if hasattr(os, "geteuid") and os.geteuid() == 0:
+        # Root is who one is in many containers; the server listens on this machine only and wants a token.
+        own.append("--allow-root")
+    LabApp.launch_instance(argv=[*own, *arguments])

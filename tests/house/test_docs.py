@@ -1,0 +1,100 @@
+"""The habits of documentation: the public is explained, examples run, the README's commands are whole."""
+
+import doctest
+import importlib
+import inspect
+import pkgutil
+import re
+from pathlib import Path
+
+import pytest
+
+import coursekit
+
+ROOT = Path(__file__).resolve().parents[2]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+MODULES = sorted(
+    found.name
+    for found in pkgutil.walk_packages(coursekit.__path__, "coursekit.")
+    if not found.name.endswith("__main__")
+)
+# What `coursekit` itself offers of the mathematics: the part that people meet first.
+FACE = [
+    "lie",
+    "rotations",
+    "dh",
+    "robots",
+    "jacobians",
+    "subproblems",
+    "ik",
+    "singularity",
+    "path",
+    "symbolic",
+]
+
+
+def functions_and_classes(module):
+    """(name, object) of what a module offers: its `__all__`, or else what is public and at home there."""
+    offered = getattr(module, "__all__", vars(module))
+    for name, thing in ((name, getattr(module, name)) for name in offered):
+        at_home = getattr(thing, "__module__", "").startswith(module.__name__)
+        if not name.startswith("_") and at_home and (inspect.isroutine(thing) or inspect.isclass(thing)):
+            yield name, thing
+
+
+def methods(thing):
+    """(name, method or property) of a class, the public ones that it defines itself."""
+    for name, method in vars(thing).items() if inspect.isclass(thing) else ():
+        if not name.startswith("_") and (inspect.isroutine(method) or isinstance(method, property)):
+            yield name, method
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_modules_functions_and_classes_are_explained(name):
+    module = importlib.import_module(name)
+    assert (module.__doc__ or "").strip(), f"{name} has no docstring"
+    if ".mistakes." not in name:  # a wrong function is explained by the hint it is there for
+        assert not [thing for thing, what in functions_and_classes(module) if not inspect.getdoc(what)]
+
+
+@pytest.mark.parametrize("name", FACE)
+def test_the_mathematics_is_explained_with_examples(name):
+    module = getattr(coursekit, name)
+    without = []
+    for thing, what in functions_and_classes(module):
+        inner = [f"{thing}.{method}" for method, code in methods(what) if not inspect.getdoc(code)]
+        own = inspect.getdoc(what) or ""
+        without += inner + ([thing] if inspect.isfunction(what) and ">>>" not in own else [])
+    assert not without, "no docstring, or no example that can be pasted"
+
+
+@pytest.mark.parametrize("name", ["coursekit", *MODULES])
+def test_examples_print_what_they_say(name, capsys):
+    result = doctest.testmod(
+        importlib.import_module(name), optionflags=doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
+    )
+    assert result.failed == 0, capsys.readouterr().out
+
+
+# -- the README
+
+
+def commands(language):
+    return re.findall(rf"^```{language}\n(.*?)\n```$", README, flags=re.MULTILINE | re.DOTALL)
+
+
+@pytest.mark.parametrize("ending", ["coursekit lab", "-m pytest"])
+def test_readme_has_each_command_for_both_systems(ending):
+    (unix,) = (command for command in commands("bash") if command.endswith(ending))
+    (windows,) = (command for command in commands("bat") if command.endswith(f'{ending}"'))
+    assert "\n" not in unix + windows, "one line to paste"
+    translated = (
+        unix.replace("python3 -m venv", "py -m venv").replace("/bin/", "/Scripts/").replace("/", "\\")
+    )
+    assert windows == f'cmd /c "{translated}"'  # PowerShell knows no "&&"
+
+
+def test_readme_links_lead_somewhere():
+    targets = re.findall(r"\]\(([^)#\s]+)", README) + re.findall(r'(?:src|href)="([^"#]+)"', README)
+    inside = [target for target in targets if not re.match(r"[a-z]+:", target)]
+    assert not [target for target in inside if not (ROOT / target).exists()]

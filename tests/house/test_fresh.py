@@ -1,0 +1,178 @@
+"""Both commands of the README on a fresh machine: as pasted, with an empty environment and no home.
+
+A copy of the course is put into a folder whose name has spaces and letters that are not English. There is no
+home directory, and none can be made: what a program wants to leave there fails or shows. It takes minutes and
+asks the package index for everything, so it runs with CI=true or `-m fresh` only.
+"""
+
+import contextlib
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import time
+import urllib.request
+import uuid
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+# how this machine reaches the package index; everything else of its environment is left behind
+NETWORK = re.compile(r"(?i)^(pip_.*|.*_proxy|ssl_cert_.*|requests_ca_bundle)$")
+
+pytestmark = [
+    pytest.mark.fresh,
+    pytest.mark.skipif(os.name == "nt", reason="the Linux and macOS form of the commands"),
+]
+
+
+@pytest.fixture(scope="module")
+def machine(request, tmp_path_factory):
+    if os.environ.get("CI") != "true" and "fresh" not in request.config.option.markexpr:
+        pytest.skip("sets the course up anew, which takes minutes: runs with CI=true or -m fresh")
+    return Machine(tmp_path_factory.mktemp("machine"))
+
+
+class Machine:
+    """A folder for the course, an empty environment, and places where something might be left behind."""
+
+    def __init__(self, folder):
+        self.course = folder / "Robótica, für Anfänger (1)"
+        leave = shutil.ignore_patterns(".*", "__pycache__", "work")
+        shutil.copytree(ROOT, self.course, ignore=leave)
+        nothing = folder / "nothing"
+        nothing.touch()
+        self.temporary = folder / "tmp"
+        self.temporary.mkdir()
+        self.environment = {name: value for name, value in os.environ.items() if NETWORK.match(name)}
+        self.environment |= {
+            "PATH": os.environ["PATH"],
+            "HOME": str(nothing / "home"),  # not even root can make a folder inside a file
+            "TMPDIR": str(self.temporary),
+            "LANG": "C.UTF-8",
+        }
+
+    def command(self, ending, *arguments):
+        """The README's command with this ending, as pasted, followed by arguments."""
+        readme = (self.course / "README.md").read_text(encoding="utf-8")
+        (line,) = re.findall(rf"^python3 .*{re.escape(ending)}$", readme, flags=re.MULTILINE)
+        return ["bash", "-c", " ".join([line, *arguments])]
+
+
+class Server:
+    """The running JupyterLab, talked to as its page does: REST for sessions, a websocket for the kernel."""
+
+    def __init__(self, runtime):
+        facts = json.loads(next(runtime.glob("jpserver-*.json")).read_text())
+        self.url, self.token = facts["url"].rstrip("/"), facts["token"]
+
+    def ask(self, path, /, **body):
+        request = urllib.request.Request(
+            f"{self.url}{path}",
+            headers={"Authorization": f"token {self.token}"},
+            data=json.dumps(body).encode() if body else None,
+        )
+        with urllib.request.urlopen(request, timeout=60) as answer:
+            content = answer.read()
+        return json.loads(content) if content.startswith((b"{", b"[")) else content
+
+    def execute(self, notebook):
+        """Run all code cells of a notebook; the errors that the kernel reported."""
+        import websocket
+
+        cells = self.ask(f"/api/contents/{notebook}?content=1")["content"]["cells"]
+        session = self.ask(
+            "/api/sessions", path=notebook, type="notebook", name=notebook, kernel={"name": "python3"}
+        )
+        address = f"{self.url.replace('http', 'ws', 1)}/api/kernels/{session['kernel']['id']}/channels"
+        socket = websocket.create_connection(
+            address, header=[f"Authorization: token {self.token}"], timeout=120
+        )
+        errors = []
+        for cell in cells:
+            if cell["cell_type"] == "code" and "raises-exception" not in cell["metadata"].get("tags", []):
+                errors += self._cell(socket, cell["source"])
+        socket.close()
+        return errors
+
+    def _cell(self, socket, source):
+        header = {"msg_id": uuid.uuid4().hex, "msg_type": "execute_request", "version": "5.3"}
+        header |= {"username": "", "session": uuid.uuid4().hex, "date": ""}
+        content = {"code": source, "silent": False, "store_history": True, "user_expressions": {}}
+        content |= {"allow_stdin": False, "stop_on_error": False}
+        message = {
+            "header": header,
+            "parent_header": {},
+            "metadata": {},
+            "content": content,
+            "channel": "shell",
+        }
+        socket.send(json.dumps(message))
+        errors = []
+        while True:
+            received = socket.recv()
+            if isinstance(received, bytes):
+                continue  # what a widget sends to its view
+            answer = json.loads(received)
+            if answer["parent_header"].get("msg_id") != header["msg_id"]:
+                continue
+            if answer["msg_type"] == "error":
+                errors.append(f"{source}\n{answer['content']['ename']}: {answer['content']['evalue']}")
+            if answer["msg_type"] == "status" and answer["content"]["execution_state"] == "idle":
+                return errors
+
+
+def test_first_command_opens_the_course(machine):
+    log = machine.course.parent / "lab.log"
+    with log.open("w") as output:
+        process = subprocess.Popen(
+            machine.command("coursekit lab", "--no-browser", "--port=0"),
+            cwd=machine.course,
+            env=machine.environment,
+            stdout=output,
+            stderr=output,
+            start_new_session=True,
+        )
+    try:
+        runtime = machine.course / ".venv" / "lab" / "runtime"
+        until = time.monotonic() + 900
+        while not list(runtime.glob("jpserver-*.json")):
+            assert process.poll() is None, log.read_text()
+            assert time.monotonic() < until, log.read_text()
+            time.sleep(0.5)
+        server = Server(runtime)
+        shown = {entry["name"] for entry in server.ask("/api/contents")["content"]}
+        assert {path.name for path in (ROOT / "notebooks").glob("*.ipynb")} <= shown
+        assert b"JupyterLab" in server.ask("/lab")
+        settings = server.ask("/lab/api/settings/@jupyterlab/apputils-extension:kernels-settings")
+        assert settings["schema"]["properties"]["commsOverSubshells"]["default"] == "disabled"
+        assert server.execute("01_dh_vs_poe.ipynb") == []
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGTERM)
+        process.wait(30)
+    said = log.read_text().split("ServerApp")[0]  # what came before JupyterLab's own log
+    assert not re.search(r"(?i)error|deprecat|traceback", said), said
+
+
+def test_second_command_on_top_of_the_first(machine):
+    """Repeats the set-up where it was already done, adds what the tests need, and runs some of them."""
+    done = subprocess.run(
+        machine.command("-m pytest", "-q", "tests/house/test_import.py", "notebooks/01_dh_vs_poe.ipynb"),
+        cwd=machine.course,
+        env=machine.environment,
+        capture_output=True,
+        text=True,
+        timeout=900,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert re.search(r"\d+ passed", done.stdout)
+
+
+def test_nothing_is_left_outside_the_course(machine):
+    assert list(machine.temporary.iterdir()) == []
+    at_top = {path.name for path in machine.course.iterdir()}
+    assert at_top - {path.name for path in ROOT.iterdir()} <= {".venv", ".pytest_cache", ".hypothesis"}
