@@ -17,6 +17,16 @@ ROUNDING = (
     8 * np.finfo(float).eps
 )  # a singular value smaller than this times the largest is rounding: it is 0
 
+__all__ = [
+    "Ellipsoid",
+    "by_differences",
+    "by_matrix_derivative",
+    "ellipsoid",
+    "manipulability",
+    "planar",
+    "skew_theory",
+]
+
 
 def skew_theory(robot, theta):
     """Column i is (w_i; w_i x (p_n - o_i)): the axis, and the lever from a point of it to the tool.

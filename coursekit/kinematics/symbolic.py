@@ -71,6 +71,7 @@ class Arm:
 
     @property
     def B(self):
+        """Body screws (6, n): Ad(M^-1) S."""
         return adjoint(inverse(self.M)) * self.S
 
     def numbers(self, expression, theta=None):

@@ -17,13 +17,21 @@ def rotx(angle):
 
 
 def roty(angle):
-    """Turn about y, a (3, 3) Matrix."""
+    """Turn about y, a (3, 3) Matrix.
+
+    >>> roty(sp.pi / 2)[:, 0].T
+    Matrix([[0, 0, -1]])
+    """
     c, s = sp.cos(angle), sp.sin(angle)
     return sp.Matrix([[c, 0, s], [0, 1, 0], [-s, 0, c]])
 
 
 def rotz(angle):
-    """Turn about z, a (3, 3) Matrix."""
+    """Turn about z, a (3, 3) Matrix.
+
+    >>> rotz(sp.pi / 2)[:, 0].T
+    Matrix([[0, 1, 0]])
+    """
     c, s = sp.cos(angle), sp.sin(angle)
     return sp.Matrix([[c, -s, 0], [s, c, 0], [0, 0, 1]])
 
@@ -39,7 +47,11 @@ def xyx(a, b, c):
 
 
 def pose(R=None, p=(0, 0, 0)):
-    """The (4, 4) Matrix of a rotation and a position."""
+    """The (4, 4) Matrix of a rotation and a position.
+
+    >>> pose(p=(1, 2, 3))[:3, 3].T
+    Matrix([[1, 2, 3]])
+    """
     T = sp.eye(4)
     T[:3, :3] = sp.eye(3) if R is None else R
     T[:3, 3] = sp.Matrix(p)
@@ -47,19 +59,34 @@ def pose(R=None, p=(0, 0, 0)):
 
 
 def inverse(T):
-    """T^-1 = [[R', -R' p], [0, 1]]."""
+    """T^-1 = [[R', -R' p], [0, 1]], (4, 4).
+
+    >>> inverse(pose(rotz(sp.pi / 2), (1, 2, 3)))[:3, 3].T
+    Matrix([[-2, 1, -3]])
+    """
     R, p = T[:3, :3], T[:3, 3]
     return pose(R.T, -R.T * p)
 
 
 def adjoint(T):
-    """[Ad_T] = [[R, 0], [[p] R, R]] for twists (omega; v), a (6, 6) Matrix."""
+    """[Ad_T] = [[R, 0], [[p] R, R]] for twists (omega; v), a (6, 6) Matrix.
+
+    >>> (adjoint(pose(p=(0, 2, 0))) * sp.Matrix([0, 0, 1, 0, 0, 0])).T
+    Matrix([[0, 0, 1, 2, 0, 0]])
+    """
     R, p = T[:3, :3], T[:3, 3]
     return sp.Matrix(sp.BlockMatrix([[R, sp.zeros(3, 3)], [hat3(p) * R, R]]))
 
 
 def hat3(w):
-    """[w]: the matrix with [w] x = w cross x."""
+    """[w]: the matrix with [w] x = w cross x, (3, 3).
+
+    >>> hat3([1, 2, 3]) * sp.Matrix([0, 0, 1])
+    Matrix([
+    [ 2],
+    [-1],
+    [ 0]])
+    """
     x, y, z = w
     return sp.Matrix([[0, -z, y], [z, 0, -x], [-y, x, 0]])
 
@@ -111,5 +138,9 @@ def dh_matrix(a, alpha, d, theta, convention="standard"):
 
 
 def turn(w, angle):
-    """Rotation about the unit vector w."""
+    """Rotation about the unit vector w, (3, 3).
+
+    >>> turn([0, 0, 1], sp.pi / 2)[:, 0].T
+    Matrix([[0, 1, 0]])
+    """
     return screw_exp([*w, 0, 0, 0], angle)[:3, :3]

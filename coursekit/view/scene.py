@@ -252,13 +252,18 @@ class Scene:
         'planar 2R: joints (0.0, 0.0) deg; tool at (750.0, 0.0, 0.0) mm'
         """
         lines = []
+        ghosts = sum(actor.style == "ghost" for actor in self._actors.values())
         for name, actor in self._actors.items():
+            if actor.style == "ghost":
+                continue
             turns = [kind == "revolute" for kind in actor.robot.joint_types]
             joints = text.row(np.where(turns, np.degrees(actor.theta), 1000 * actor.theta), 1)
             unit = "deg" if all(turns) else "deg or mm"
             tool = text.millimetres(actor.robot.fk(actor.theta)[:3, 3])
             who = actor.robot.name + ("" if name == "robot" else f" ({name})")
             lines.append(f"{who}: joints {joints} {unit}; tool at {tool}")
+        if ghosts:
+            lines.append(f"{ghosts} translucent arm" + ("s" if ghosts > 1 else ""))
         return "; ".join(lines) or "an empty scene"
 
     # --- inside ---

@@ -2,8 +2,8 @@
 
     python tests/benchmark/kinematics.py          (with the packages of requirements.txt in this folder)
 
-Prints microseconds per configuration of a KUKA KR6 and, where a goal is set, the ratio to the peer. A ratio is
-taken inside this process, so it means the same on a slow machine. Peers that are not installed are left out.
+Prints microseconds per configuration of a KUKA KR6 and, where a goal is set, the ratio to the peer. A
+ratio is taken inside this process, so it means the same on a slow machine. Peers that are not installed are left out.
 Nothing in the test command reads this file.
 """
 
@@ -50,7 +50,7 @@ def looped(function, items):
     return run
 
 
-# -- peers: each returns functions on one configuration, or None where the package is not installed --------------
+# -- peers: each returns functions on one configuration, or None where the package is not installed -------
 
 
 def pinocchio():
@@ -118,7 +118,7 @@ def modern_robotics():
     return mr
 
 
-# -- what is measured -------------------------------------------------------------------------------------------
+# -- what is measured ---------------------------------------------------------------------------------------
 
 
 def report(what, own, peer=None, peer_name="", goal=None):

@@ -1,0 +1,87 @@
+"""Typical mistakes of notebook 04."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from coursekit.classroom.mistakes import Solved
+
+right = Solved("nb04")
+
+
+def blocks_without_sign(J):  # TPK4170 report, eq. 5.6
+    return np.linalg.det(J[:3, 3:]) * np.linalg.det(J[3:, :3])
+
+
+def blocks_on_the_diagonal(J):
+    return np.linalg.det(J[:3, :3]) * np.linalg.det(J[3:, 3:])
+
+
+def sizes_of_the_blocks(J):  # TPK4170 report, eq. 5.7: a block is 0
+    return -np.linalg.norm(J[:3, 3:]) * np.linalg.norm(J[3:, :3])
+
+
+def shoulder(theta2, a1, a2, a3, d4, higher=-1):
+    reach = np.clip(-(a1 + a2 * np.cos(theta2)) / np.hypot(a3, d4), -1, 1)
+    return np.arctan2(a3, d4) + higher * np.arccos(reach) - theta2
+
+
+def shoulder_of_the_flange(theta2, lengths):  # theta5 taken into account: TPK4170 report, table 5.1, case 3
+    a1, a2, a3, d4, d6 = lengths
+    return shoulder(theta2, a1, a2, a3, d4 + d6)
+
+
+def shoulder_without_a1(theta2, lengths):
+    _, a2, a3, d4, _ = lengths
+    return shoulder(theta2, 0, a2, a3, d4)
+
+
+def shoulder_without_a3(theta2, lengths):
+    a1, a2, _, d4, _ = lengths
+    return shoulder(theta2, a1, a2, 0, d4)
+
+
+def rank_by_determinant(J, tol):
+    return 6 if abs(np.linalg.det(J)) > tol else 5
+
+
+def rank_by_squares(J, tol):
+    squares = np.linalg.eigvalsh(J @ J.T)
+    return int((squares > tol * squares.max()).sum())
+
+
+WRONG = {
+    "det_from_blocks": {
+        "no_sign": blocks_without_sign,
+        "diagonal": blocks_on_the_diagonal,
+        "sizes": sizes_of_the_blocks,
+        "arm_only": lambda J: np.linalg.det(J[3:, :3]),
+    },
+    "elbow_angle": {
+        "inverted": lambda a3, d4: np.arctan(d4 / a3),
+        "ratio": lambda a3, d4: a3 / d4,
+        "sine": lambda a3, d4: np.arcsin(a3 / d4),
+        "rounded": lambda a3, d4: np.round(right.elbow_angle(a3, d4), 3),  # table 5.1: 0.083
+        "sign": lambda a3, d4: -right.elbow_angle(a3, d4),
+    },
+    "shoulder_theta3": {
+        "flange": shoulder_of_the_flange,
+        "rounded": lambda theta2, lengths: np.round(right.shoulder_theta3(theta2, lengths), 3),
+        "no_a1": shoulder_without_a1,
+        "no_a3": shoulder_without_a3,
+        "lower": lambda theta2, lengths: shoulder(theta2, *lengths[:4], higher=1),
+        "sum": lambda theta2, lengths: theta2 + right.shoulder_theta3(theta2, lengths),
+    },
+    "rank": {
+        "determinant": rank_by_determinant,
+        "absolute": lambda J, tol: int((np.linalg.svd(J)[1] > tol).sum()),
+        "squares": rank_by_squares,
+        "lost": lambda J, tol: 6 - right.rank(J, tol),
+    },
+    "lost_motion": {
+        "joint_rates": lambda J: np.linalg.svd(J)[2][-1],
+        "v_first": lambda J: np.roll(right.lost_motion(J), 3),
+        "row_of_u": lambda J: np.linalg.svd(J)[0][-1],
+        "easiest": lambda J: np.linalg.svd(J)[0][:, 0],
+    },
+}

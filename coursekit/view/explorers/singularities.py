@@ -1,0 +1,203 @@
+"""Notebook 04: det J and its factors live, what is lost, and a map of the singularities over two joints."""
+
+import numpy as np
+
+from coursekit.kinematics import robots, singularity
+from coursekit.view import text
+from coursekit.view.controls import Action, Choice, Toggle, joint_sliders
+from coursekit.view.figures import nb04
+from coursekit.view.panel import Panel
+from coursekit.view.plots import Plot
+from coursekit.view.scene import Scene
+
+UNITS = {"wrist": "", "elbow": " m^2", "shoulder": " m"}
+NEAR = 0.05  # relative factor below which a singularity is called near: about 3 degrees
+
+
+def explore_singularities(robot=None, height=470):
+    """Open the explorer of singularities.
+
+    Sliders move the arm. The text gives det J, its three factors, the smallest singular value, the rank and
+    the name of the singularity. Arrows at the wrist show what is lost: the force and the moment that no joint
+    can feel (at a regular pose, those which the joints feel least). Where that is a pure force, its line is
+    drawn: it meets all six axes. The map shows det J over two joints; a click on it sets them. Buttons drive
+    the arm to the nearest singularity of each kind, by one joint.
+
+    Parameters
+    ----------
+    robot : Robot, optional
+        An arm whose det J has the three factors (`singularity.factors`); ValueError for any other. Without it
+        the explorer offers every such arm of the catalogue.
+    """
+    arms = [arm for arm in robots.all().values() if arm.n == 6] if robot is None else [robot]
+    for arm in arms:
+        singularity.factors(arm, arm.home)  # refuses an arm without the three factors
+    shown = [arms[0]]
+    scene = Scene()
+    _draw(scene, shown[0])
+    joints = joint_sliders(shown[0], _start(shown[0]))
+    picker = [Choice("robot", {arm.name: arm for arm in arms})] if len(arms) > 1 else []
+    moving = {f"θ{k + 1}": k for k in range(1, 5)}  # det J depends on no other joint
+    across = Choice("across", moving, "θ2", "map, across")
+    upwards = Choice("up", moving, "θ3", "map, upwards")
+
+    def update(values):
+        if picker and values["robot"] is not shown[0]:
+            shown[0] = values["robot"]
+            scene.remove("/ck/robot")
+            _draw(scene, shown[0])
+            for k, slider in enumerate(joints.used):
+                slider.fit_joint(shown[0], k, _start(shown[0])[k])
+        if values["across"] == values["up"]:  # two different joints
+            upwards.put("θ3" if values["across"] != moving["θ3"] else "θ2")
+        theta = joints.get()
+        scene.set_theta("robot", theta)
+        for k in range(1, shown[0].n + 1):
+            scene.show(f"/ck/robot/{k}/line", values["axes"])
+        _show_loss(scene, shown[0], theta, values["lost"], values["line"])
+
+    def draw(figure, values):
+        ax, i, j = figure.subplots(), values["across"], values["up"]
+        nb04.draw_map(ax, shown[0], values["theta"], i, j)
+        ax.plot(*np.degrees(values["theta"][[i, j]]), "X", color="#F07A2B", mec="w", ms=11)
+
+    def click(x, y):
+        theta = panel.values["theta"]
+        theta[[panel.values["across"], panel.values["up"]]] = np.radians([x, y])
+        panel.set(theta=np.clip(theta, *_ends(shown[0])))
+
+    def drive_to(name):
+        def act(panel):
+            start = panel.values["theta"]
+            end = nearest(shown[0], start, name)
+            if end is not None:
+                panel.set(theta=end)
+                panel.play_theta(np.linspace(start, end, 31))
+
+        return act
+
+    panel = Panel(
+        "singularities",
+        scene,
+        [
+            *picker,
+            joints,
+            across,
+            upwards,
+            Toggle("lost", "lost motion", start=True),
+            Toggle("line", "line that meets all axes", start=True),
+            Toggle("axes", "joint axes", start=True),
+            *(Action(f"to_{name}", f"to the {name}", drive_to(name)) for name in singularity.NAMES),
+        ],
+        update,
+        lambda values: words(shown[0], values["theta"]),
+        below=[
+            Plot(
+                draw,
+                "Dark: det J is small. White lines: a factor is 0 (elbow dashed, shoulder solid, wrist "
+                "dotted). The cross is the arm; click to move it.",
+                on_click=click,
+            )
+        ],
+        title="Explorer of singularities",
+        height=height,
+    )
+    return panel
+
+
+def nearest(robot, theta, name):
+    """The configuration nearest to theta, by one joint and inside the limits, where a factor is 0; or None.
+
+    A factor is A + B cos + C sin of any one joint angle, so its values at three angles tell its zeros.
+
+    >>> kr6 = robots.kuka_kr6()
+    >>> float(nearest(kr6, [0, -0.7, 0.9, 0.5, 0.8, 0.2], "elbow")[2].round(6))
+    0.083141
+    """
+    theta = np.asarray(theta, float)
+    low, high = _ends(robot)
+    found = []
+    for joint in range(1, 5):
+        turned = np.array([theta] * 3)
+        turned[:, joint] = 0, np.pi / 2, np.pi
+        at_0, at_90, at_180 = singularity.factors(robot, turned)[name]
+        A, B = (at_0 + at_180) / 2, (at_0 - at_180) / 2
+        size = np.hypot(B, at_90 - A)
+        if size < 1e-9 or abs(A) > size:
+            continue
+        middle, half = np.arctan2(at_90 - A, B), np.arccos(-A / size)
+        roots = middle + np.outer([half, -half], np.ones(5)) + 2 * np.pi * np.arange(-2, 3)
+        inside = roots[(roots >= low[joint]) & (roots <= high[joint])]
+        found += [np.where(np.arange(robot.n) == joint, root, theta) for root in inside]
+    return min(found, key=lambda end: np.abs(end - theta).max(), default=None)
+
+
+def words(robot, theta):
+    """The numbers of the picture: determinant, factors, smallest singular value, rank, name, what is lost."""
+    split = singularity.factors(robot, theta)
+    parts = [f"{name} {text.number(split[name], 5)}{unit}" for name, unit in UNITS.items()]
+    names, rank = singularity.classify(robot, theta), singularity.rank(robot, theta)
+    verdict = " and ".join(names) + " singularity" if names else "regular"
+    if singularity.aligned(robot, theta):
+        verdict += ", axes 1 and 6 are one line"
+    relative = singularity.relative_factors(robot, theta)
+    near = [name for name in relative if abs(relative[name]) < NEAR and name not in names]
+    verdict += f"; near: {', '.join(near)}" if near else ""
+    sigma = text.number(singularity.sigma_min(robot, theta), 5)
+    moment, force, pitch = _loss(robot, theta)
+    what = "lost" if rank < 6 else "weakest"
+    loss = f"{what}: force {text.row(force, 2)}, moment {text.row(moment, 2)} at the wrist"
+    if rank == 5:
+        loss += ", a line that meets all six axes" if abs(pitch) < 1e-6 else f", pitch {abs(pitch):.3f} m"
+    elif rank < 5:
+        loss += f": one of {6 - rank} motions that are lost"
+    tool = f"tool at {text.millimetres(robot.fk(theta)[:3, 3])}"
+    det = f"det J = {text.number(singularity.determinant(robot, theta), 6)} m^3 = {' x '.join(parts)}"
+    return "\n".join([tool, det, f"smallest singular value {sigma}, rank {rank}: {verdict}", loss])
+
+
+def _ends(robot):
+    """Limits of the joints (n,), (n,); half a turn where there is none."""
+    return tuple(np.nan_to_num(q, posinf=np.pi, neginf=-np.pi) for q in (robot.q_min, robot.q_max))
+
+
+def _start(robot):
+    """A regular configuration near home, (6,)."""
+    return np.clip(robot.home + np.radians([0, 10, 20, 25, 45, 0]), *_ends(robot))
+
+
+def _draw(scene, robot):
+    """The arm, and each joint axis as a long line that moves with its link."""
+    scene.robot(robot, nearest(robot, _start(robot), "elbow"))  # the camera leaves room for the stretched arm
+    for k, S in enumerate(robot.S.T):
+        w, near = S[:3], robot.link_frames(np.zeros(robot.n))[k, :3, 3]
+        foot = np.cross(w, S[3:]) + w * (w @ near)
+        ends = foot + np.outer([-0.6, 0.6], w) * scene.size
+        scene.curve(f"/ck/robot/{k + 1}/line", np.linspace(*ends, 33), "axis", 0.002 * scene.size)
+
+
+def _wrist(robot, theta):
+    """The origin of frame 5, (3,): where the axes of a spherical wrist meet."""
+    return robot.link_frames(theta)[4, :3, 3]
+
+
+def _loss(robot, theta):
+    """The lost wrench: moment about the wrist and force, together of length 1, and its pitch."""
+    lost = singularity.lost_motion(robot, theta)
+    moment = lost[:3] - np.cross(_wrist(robot, theta), lost[3:])
+    size = np.sqrt(moment @ moment + lost[3:] @ lost[3:])
+    return moment / size, lost[3:] / size, float(singularity.lost_wrench(robot, theta).pitch)
+
+
+def _show_loss(scene, robot, theta, lost, line):
+    """Arrows of what is lost, at the wrist, and the line that meets all axes where there is one."""
+    wrist, (moment, force, pitch) = _wrist(robot, theta), _loss(robot, theta)
+    what = "lost" if singularity.rank(robot, theta) < 6 else "weakest"
+    for name, vector, color in (("force", force, "accent"), ("moment", moment, "trace")):
+        long = 0.35 * scene.size * vector if lost and np.linalg.norm(vector) > 1e-6 else np.zeros(3)
+        scene.arrow(f"/ck/lost/{name}", wrist, long, color, f"{what}: {name}")
+    wrench = singularity.lost_wrench(robot, theta)
+    there = line and what == "lost" and abs(pitch) < 1e-6
+    middle = wrench.point + wrench.direction * (wrench.direction @ (wrist - wrench.point)) if there else wrist
+    ends = middle + np.outer([-1.1, 0.5], wrench.direction if there else np.zeros(3)) * scene.size
+    scene.line("/ck/meets_all", *ends, "accent", "meets all six axes", 0.004 * scene.size)
