@@ -1,0 +1,210 @@
+"""Notebook 06: an arm that draws a letter S on a sphere, every way it can, as fast as its joints allow."""
+
+import numpy as np
+
+from coursekit.kinematics import ik, path, robots
+from coursekit.view import text
+from coursekit.view.controls import Choice, Table, Toggle
+from coursekit.view.panel import Panel
+from coursekit.view.plots import Plot
+from coursekit.view.scene import Scene
+
+POINTS = (101, 201, 501, 1001, 5001)
+FRAMES = 501  # the most poses that are sent to the page
+NORMALS = 26  # arrows drawn along the curve
+ONE_BOUND = 2.0  # rad/s for every joint (RPI mini project 3, 2021, problem 3)
+STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1, 1, 1)))
+CAPTION = (
+    "Rate of each joint in percent of its bound, at the largest speed that the bounds allow. "
+    "Dotted: the bounds; black, dashed: where the arm rests."
+)
+
+
+def explore_path(robot=None, points=None, height=470):
+    """Open the explorer of a path: a curve on a sphere with its outward normals, and the arm that follows it.
+
+    The buttons under the picture play, pause and scrub the motion, in real time at the largest speed that
+    the joints allow. The table compares all ways to follow the path. The plot shows the joint rates
+    of the one that is shown: of its continuous angles or, to see what goes wrong, of wrapped ones.
+
+    Parameters
+    ----------
+    robot : Robot, optional
+        An arm with an analytic inverse (`ik.analytic`); the ABB IRB 1200 without it.
+    points : (m, 3), optional
+        Another curve on the sphere of radius 0.5 m about (0, 0, 0.5), for instance from `path.load_points`;
+        the letter S without it. ValueError where the arm cannot follow the curve in any way.
+    """
+    robot = robots.abb_irb1200() if robot is None else robot
+    run = _Run(robot, points)
+    scene = Scene()
+    scene.robot(robot, run.q[run.branch, 0])
+    scene.frame(f"/ck/robot/{robot.n}/tool", robot.M, size=0.12 * scene.size)
+    scene.sphere("/ck/sphere", path.SPHERE_CENTER, path.SPHERE_RADIUS)
+    scene.curve("/ck/curve", run.points)
+    some = np.linspace(0, len(run.points) - 1, NORMALS).round().astype(int)
+    scene.normals("/ck/normals", run.points[some], 0.1 * path.frames(run.points)[some, :3, 0])
+
+    def update(values):
+        another = run.choose(values["points"], values["bounds"], values["branch"], values["wrapped"])
+        if another and run.panel:
+            run.send()
+        scene.set_theta("robot", run.q[run.branch, run.place])
+        for part in ("sphere", "normals"):
+            scene.show(f"/ck/{part}", values[part])
+
+    bounds = {"2 rad/s each": np.full(robot.n, ONE_BOUND)}
+    if np.isfinite(robot.v_max).all():
+        bounds["the robot's own"] = robot.v_max
+    ways = {name: k for k, name in enumerate(run.names) if run.reached[k] == len(run.points)}
+    run.panel = Panel(
+        "path",
+        scene,
+        [
+            Choice("branch", ways, run.names[run.branch], "way"),
+            Choice("points", {str(n): n for n in POINTS}, label="points"),
+            Choice("bounds", bounds, label="rate bounds"),
+            Toggle("wrapped", "differences of wrapped angles"),
+            Toggle("normals", "outward normals", start=True),
+            Toggle("sphere", "sphere", start=True),
+        ],
+        update,
+        lambda values: run.words(),
+        [
+            Plot(run.plot, CAPTION, (5.2, 3.5)),
+            Table("ways", lambda values: run.table(), "All ways along the path."),
+        ],
+        title="Explorer of the path",
+        height=height,
+    )
+    run.send()
+    run.panel.viewer.observe(run.rested, "frame")
+    return run.panel
+
+
+class _Run:
+    """The arm on the path: all branches at every sampling asked for so far, and the one that is shown."""
+
+    def __init__(self, robot, curve):
+        self.robot, self.curve, self.panel = robot, curve, None
+        self.known = {}  # number of points -> points, q, points reached, points inside the limits
+        n = POINTS[0]
+        points, q, reached, inside = self._follow(n)
+        if reached.max() < n:
+            raise ValueError(
+                f"{robot.name} cannot follow this path: it reaches {reached.max()} of {n} points"
+            )
+        self.names = ik.analytic(robot, path.frames(points)[0]).branches
+        inside = np.where(reached == n, inside, -1)
+        best = np.flatnonzero(inside == inside.max())
+        self.branch = min(best.tolist(), key=lambda k: np.abs(q[k, 0]).sum())  # the one nearest to zero
+        self.place, self.motion = 0, None
+        self.choose(n, np.full(robot.n, ONE_BOUND), self.branch, False)
+
+    def _follow(self, n):
+        if n not in self.known:
+            points = path.s_curve(n) if self.curve is None else path.resample(self.curve, n)
+            q = path.follow(self.robot, path.frames(points))
+            inside = self.robot.within_limits(q).sum(axis=-1)
+            self.known[n] = points, q, path.points_reached(q), inside
+        return self.known[n]
+
+    def choose(self, n, bounds, branch, wrapped):
+        """Take what the controls say. -> whether the page needs another motion."""
+        self.points, self.q, self.reached, self.inside = self._follow(n)
+        self.branch, self.bounds, self.wrapped = branch, bounds, wrapped
+        self.limit = path.speed_limit(self.q, self.points, bounds)
+        self.faulty = path.speed_limit(_wrapped(self.q), self.points, bounds)
+        before, self.motion = self.motion, (n, self.branch, *bounds)
+        if before and before[:2] != self.motion[:2]:
+            self.place = 0
+        return self.motion != before
+
+    # -- the motion in the page
+
+    def send(self):
+        """At most FRAMES poses of the branch, in real time at its largest speed."""
+        n = len(self.points)
+        self.shown = np.linspace(0, n - 1, min(n, FRAMES)).round().astype(int)
+        seconds = path.steps(self.points).sum() / self.limit.speed[self.branch]
+        poses, texts = self.robot.displacements(self.q[self.branch, self.shown]), self._at(self.shown)
+        self.sending = True
+        self.panel.play(poses, fps=(len(self.shown) - 1) / seconds, texts=texts, autoplay=False)
+        self.sending = False
+
+    def rested(self, change):
+        """The motion was paused or scrubbed: text and plot follow."""
+        if change.new >= 0 and not self.sending:
+            self.place = int(self.shown[min(change.new, len(self.shown) - 1)])
+            self.panel.refresh()
+
+    # -- words, table, plot
+
+    def _at(self, places):
+        """One line for each of these points of the path."""
+        n, lines = len(self.points), []
+        use = 100 * np.abs(self._use(self.limit))
+        for i in places:
+            share = ", ".join(text.number(u, 0) for u in use[min(i, n - 2)])
+            lines.append(f"point {i + 1} of {n}: joints at {share} percent of their bounds")
+        return lines
+
+    def _use(self, limit):
+        """Share of its bound that each joint uses in each step, at that limit's speed. (m - 1, n), signed."""
+        q = _wrapped(self.q) if limit is self.faulty else self.q
+        return path.joint_rates(q[self.branch], self.points, limit.speed[self.branch]) / self.bounds
+
+    def words(self):
+        k, theta = self.branch, self.q[self.branch, self.place]
+        joint = self.limit.joint[k]
+        full = np.flatnonzero(np.abs(self._use(self.limit)[:, joint]) > 1 - 1e-9)  # two where it is symmetric
+        where = " and ".join(f"after point {i + 1}" for i in full[:2])
+        inside = "inside" if self.robot.within_limits(theta) else "outside"
+        speed, bound = text.number(self.limit.speed[k], 4), text.number(self.bounds[joint])
+        lines = [
+            f"{self.names[k]}, {self._at([self.place])[0]}",
+            f"joints {text.degrees(theta)}: {inside} the limits",
+            f"largest speed {speed} m/s: joint {joint + 1} at {bound} rad/s {where}",
+        ]
+        return "\n".join([*lines, self._fault()] if self.wrapped else lines)
+
+    def _fault(self):
+        """What the differences of wrapped angles make of this branch."""
+        k, joint, i = self.branch, self.faulty.joint[self.branch], self.faulty.index[self.branch]
+        seems, turns = (np.ptp(q[k, i : i + 2, joint]) for q in (_wrapped(self.q), self.q))
+        speed = f"from wrapped angles {text.number(self.faulty.speed[k], 4)} m/s:"
+        if seems < np.pi:
+            return f"{speed} no angle wraps on this way"
+        jump = f"joint {joint + 1} seems to turn {text.number(seems)} rad; it turns {text.number(turns)} rad"
+        return f"{speed} after point {i + 1} {jump}"
+
+    def table(self):
+        """Header and rows: way, largest speed, the joint that sets it, points inside, spread of q3."""
+        n, rows, limit = len(self.points), [], self.faulty if self.wrapped else self.limit
+        for k, name in enumerate(self.names):
+            inside = f"{self.inside[k]} of {n}" if self.reached[k] == n else f"breaks after {self.reached[k]}"
+            joint = limit.joint[k] + 1 if self.reached[k] == n else text.NOTHING
+            spread = text.number(np.std(self.q[k, :, min(2, self.robot.n - 1)], ddof=1), 4)
+            rows.append([name, text.number(limit.speed[k], 4), joint, inside, spread])
+        return ["way", "speed [m/s]", "joint", "points inside limits", "std q3 [rad]"], rows
+
+    def plot(self, figure, values):
+        """Joint rates over the path, in percent of the bounds."""
+        from matplotlib import colormaps
+
+        ax, step = figure.subplots(), path.steps(self.points)
+        s = np.append(0.0, np.cumsum(step))
+        use = 100 * self._use(self.faulty if self.wrapped else self.limit)
+        for j, rate in enumerate(use.T):
+            color = colormaps["viridis"](j / self.robot.n)
+            ax.plot(s[:-1] + step / 2, rate, ls=STYLES[j % 6], color=color, lw=1.6, label=f"joint {j + 1}")
+        ax.axvline(s[self.place], color="black", ls="--", lw=1)
+        for bound in (-100, 100):
+            ax.axhline(bound, color="#C2307E", ls=":", lw=1.2)
+        ax.set(xlabel="distance along the path [m]", ylabel="rate [% of its bound]", ylim=(-115, 115))
+        ax.legend(ncols=3, fontsize=8, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0))
+
+
+def _wrapped(q):
+    """Angles within half a turn. Rounded first: at theta = pi the last digit would decide the sign."""
+    return np.angle(np.exp(1j * np.round(q, 9)))
