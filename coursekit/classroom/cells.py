@@ -1,0 +1,54 @@
+"""Code cells of somebody else's notebook, read without trusting a byte of it."""
+
+from __future__ import annotations
+
+import ast
+import json
+import re
+
+LARGEST = 20_000_000  # bytes of a notebook
+
+# Evaluated in the kernel after an error: the line of the cell where it happened.
+FAILED_LINE = (
+    "next((line for frame, line in __import__('traceback').walk_tb(__import__('sys').last_traceback)"
+    " if frame.f_code.co_name.startswith('<') and 'ipykernel_' in frame.f_code.co_filename), 0)"
+)
+
+
+def sources(data: bytes) -> list[str]:
+    """The code cells' texts; ValueError if this is no notebook. Metadata are not even looked at."""
+    if len(data) > LARGEST:
+        raise ValueError("the notebook is larger than 20 MB")
+    try:
+        notebook = json.loads(data.decode("utf-8-sig"))
+        cells = notebook["cells"]
+        code = [_text(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
+    except (ValueError, KeyError, TypeError, RecursionError, AttributeError) as error:
+        raise ValueError(f"not a readable notebook ({type(error).__name__})") from None
+    return [text for text in code if text.strip()]
+
+
+def _text(source) -> str:
+    text = source if isinstance(source, str) else "".join(source)
+    text = text.replace("\r\n", "\n").encode("utf-8", "replace").decode("utf-8")  # no lone surrogates
+    return re.sub(r"\A(\s*\n)+", "", text)
+
+
+def definitions(source: str, after: int) -> str:
+    """Functions, classes, imports and assignments of a cell below a line, every one still on its own line.
+
+    '' if the cell is not plain Python (a magic, a syntax error): then it runs whole or not at all.
+    """
+    try:
+        statements = ast.parse(source).body
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return ""
+    lines = source.split("\n")
+    kept = ["#"] * len(lines)  # not empty: IPython drops empty lines at the top, and line numbers shift
+    wanted = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Import, ast.ImportFrom, ast.Assign)
+    for node in statements:
+        decorators = getattr(node, "decorator_list", [])
+        first = min([node.lineno, *(d.lineno for d in decorators)])
+        if first > after and isinstance(node, (*wanted, ast.AnnAssign)):
+            kept[first - 1 : node.end_lineno] = lines[first - 1 : node.end_lineno]
+    return "\n".join(kept)

@@ -1,0 +1,162 @@
+"""The public half of an exercise: how its inputs are drawn and what a right answer is made of.
+
+An `Exercise` ships to students. It holds no solution and no expected number: the solution stands in the
+solved notebook alone, functions that commit its typical mistakes in `mistakes/`, which students do not get.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+KINDS = ("close", "angle", "rotation", "up_to_sign", "columns_up_to_sign", "set", "any_solution")
+
+
+@dataclass(frozen=True)
+class Hint:
+    """A typical mistake: `key` names its wrong function in `mistakes/`, `text` is what the student reads."""
+
+    key: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Exercise:
+    """One function the student writes.
+
+    signature : "dh_transform(a, alpha, d, theta)"; the name is what stands before the parenthesis.
+    draw      : draw(rng) -> tuple of arguments: numbers, strings, lists, arrays (lists of numbers
+                reach the student as arrays), {"robot": "kuka_kr6"} for a robot, {"fk": "kuka_kr6"} its fk.
+    shape     : shape of the answer, () for a number, None for a free axis: (None, 6); a function that returns
+                several things has one shape for each: ((3,), (3,), ()).
+    compare   : how an answer is compared (one word, or one for each returned thing):
+                "close"               number by number
+                "angle"               modulo 2 pi
+                "rotation"            close; and it is said if R is not a rotation, or T not a pose
+                "up_to_sign"          a vector whose sign is free
+                "columns_up_to_sign"  a matrix, each column of free sign
+                "set"                 rows in any order, each once, angles modulo 2 pi
+                "any_solution"        right if all laws hold (they must then not call the function)
+    tol       : absolute; an answer nearer than tol is right, one farther than 2 tol is wrong.
+    laws      : (text, law(function, args, value) -> bool): what must hold whatever the inputs.
+    """
+
+    signature: str
+    points: int
+    draw: Callable[[np.random.Generator], tuple]
+    shape: tuple
+    hints: tuple[Hint, ...] = ()
+    laws: tuple[tuple[str, Callable], ...] = ()
+    compare: str | tuple[str, ...] = "close"
+    tol: float = 1e-6
+    unit: str = ""
+    samples: int = 4  # public inputs: what the student's check uses
+    n: int = 20  # hidden inputs: what grading uses
+    timeout: float = 10.0  # seconds for all n
+    name: str = field(init=False)
+
+    def __post_init__(self):
+        object.__setattr__(self, "name", self.signature.partition("(")[0].strip())
+        for kind in self.kinds:
+            if kind not in KINDS:
+                raise ValueError(f"exercise {self.name}: compare={kind!r}, valid are {', '.join(KINDS)}")
+        if len(self.kinds) != len(self.shapes):
+            raise ValueError(
+                f"exercise {self.name}: {len(self.shapes)} shapes, {len(self.kinds)} ways to compare"
+            )
+
+    @property
+    def several(self) -> bool:
+        """The function returns several things."""
+        return bool(self.shape) and isinstance(self.shape[0], tuple)
+
+    @property
+    def shapes(self) -> tuple[tuple, ...]:
+        return self.shape if self.several else (self.shape,)
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        return (self.compare,) * len(self.shapes) if isinstance(self.compare, str) else self.compare
+
+    def arguments(self, rng: np.random.Generator) -> list:
+        """Arguments for one call, as plain JSON data."""
+        return [plain(x) for x in self.draw(rng)]
+
+
+def plain(value):
+    """Numpy to JSON data; the inverse is `thaw`."""
+    if isinstance(value, np.ndarray | np.generic):
+        return value.tolist()
+    if isinstance(value, list | tuple):
+        return [plain(x) for x in value]
+    return value
+
+
+def thaw(arguments: list) -> list:
+    """What the student's function receives: lists of numbers as arrays, new ones for every call."""
+    return [_thaw(x) for x in arguments]
+
+
+def _thaw(value):
+    if isinstance(value, dict):
+        from coursekit import robots
+
+        ((what, name),) = value.items()
+        robot = robots.all()[name]
+        return robot if what == "robot" else (lambda theta: robot.fk(theta))
+    if isinstance(value, list):
+        array = np.array(value)
+        return array.astype(float) if array.dtype.kind in "if" else value
+    return value
+
+
+class Misfit(Exception):
+    """The value can not be an answer to this exercise; the text says why."""
+
+
+def answer(exercise: Exercise, value) -> list[np.ndarray]:
+    """The returned value as float arrays, one for each returned thing; Misfit if it is none."""
+    if value is None:
+        raise Misfit("the function returns None: is there a `return` at its end?")
+    if not exercise.several:
+        return [_numbers(value)]
+    if not isinstance(value, list | tuple) or len(value) != len(exercise.shapes):
+        came = f"{len(value)} things" if isinstance(value, list | tuple) else f"one {type(value).__name__}"
+        raise Misfit(f"{len(exercise.shapes)} things are expected, as a tuple; {came} came")
+    return [_numbers(x) for x in value]
+
+
+def _numbers(value) -> np.ndarray:
+    try:
+        array = np.asarray(value)
+    except Exception:  # ragged lists, objects that refuse
+        raise Misfit(f"the answer ({type(value).__name__}) is not an array of numbers") from None
+    if array.dtype.kind == "c":
+        raise Misfit("the answer is complex; real numbers are expected (a root of a negative number?)")
+    if array.dtype.kind not in "biuf":
+        raise Misfit(f"the answer has dtype {array.dtype}; numbers are expected")
+    return array.astype(float)
+
+
+def misshapen(exercise: Exercise, parts: list[np.ndarray]) -> str:
+    """'' or what is wrong with the shapes."""
+    for number, (part, shape) in enumerate(zip(parts, exercise.shapes, strict=True), 1):
+        if part.ndim != len(shape) or any(
+            b is not None and a != b for a, b in zip(part.shape, shape, strict=True)
+        ):
+            which = f"result {number} has shape" if exercise.several else "the shape is"
+            return f"{which} {part.shape}, expected {_show_shape(shape)}"
+    return ""
+
+
+def _show_shape(shape: tuple) -> str:
+    return str(shape).replace("None", "any number")
+
+
+def nearest(name: str, names) -> str:
+    """' Did you mean ...?' or ''."""
+    found = difflib.get_close_matches(name, names, 1)
+    return f" Did you mean {found[0]!r}?" if found else ""

@@ -1,0 +1,223 @@
+"""Grade a class: SUBMISSIONS/<student>/<notebook>.ipynb to grades.csv, a page for every student, a journal.
+
+The grader itself runs no student code and reads nothing of theirs but bytes. Each submission is a job of
+plain data for a process of its own; the jobs go through any `concurrent.futures.Executor`. Before the first
+of them, solved notebooks must get full marks and untouched ones none: a fault of the set-up is never a grade.
+"""
+
+from __future__ import annotations
+
+import base64
+import concurrent.futures as futures
+import contextlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from dataclasses import asdict
+from pathlib import Path
+
+from . import notebook, report, worker
+from .box import Limits, bubblewrap
+from .course import Course, the_course
+from .journal import Journal
+from .submissions import Submissions, digest
+
+SPARE = 60  # seconds a worker may take beyond the limits of its submission
+
+
+def grade_class(
+    submissions: Path,
+    out: Path,
+    *,
+    jobs: int = 2,
+    seed: int = 0,
+    box: bool = True,
+    executor: futures.Executor | None = None,
+    course: Course | None = None,
+    limits: Limits | None = None,
+    progress: bool = True,
+) -> str:
+    """Grade every submission that the journal in `out` does not hold yet; one line that sums it up.
+
+    Parameters
+    ----------
+    submissions : folder with one folder for each student
+    out : gets grades.csv, <student>.html and journal.jsonl; if it was used before, that run is resumed
+    jobs : submissions graded at the same time (with an executor: how many it can take)
+    seed : draws the hidden inputs; same seed, same grades
+    box : False runs students' code without bubblewrap, and grades.csv says so
+    executor : where the jobs run: threads by default, each of which starts processes
+
+    ValueError if there is no box, if a canary fails, or if `out` belongs to another run.
+    """
+    course, submissions, out = course or the_course(), Path(submissions), Path(out)
+    if not submissions.is_dir():
+        raise ValueError(f"{submissions} is no folder of submissions")
+    if box and bubblewrap() is None:
+        raise ValueError(
+            "students' code runs in bubblewrap, which does not work here (Debian: apt install bubblewrap). "
+            "--no-box grades without it: that code can then do whatever you can"
+        )
+    units = [unit for unit in course.units if course.notebook(unit) and course.exercises(unit)]
+    make = Jobs(course, units, seed=seed, box=box, limits=limits or Limits())
+    out.mkdir(parents=True, exist_ok=True)
+    with contextlib.ExitStack() as stack:
+        if executor is None:
+            executor = stack.enter_context(futures.ThreadPoolExecutor(jobs))
+        journal = Journal(out / "journal.jsonl", {"seed": seed, "box": box})
+        stack.enter_context(contextlib.closing(journal))
+        copies = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="submissions")))
+        handed_in = Submissions(submissions, copies, {unit: course.notebook(unit).name for unit in units})
+        ahead = 2 * jobs + 2
+        _canaries(run_all(executor, make.canaries(), ahead))
+        everything = [(student, unit) for student in handed_in.students for unit in units]
+        waiting = [x for x in everything if not journal.holds(*x, digest(handed_in.data(*x)))]
+        bar = _progress(len(everything), len(everything) - len(waiting), progress)
+        with contextlib.closing(bar):
+            for record in run_all(executor, (make.job(handed_in, *x) for x in waiting), ahead):
+                journal.add(record)
+                bar.update()
+        return _write(out, handed_in.students, units, journal, box)
+
+
+class Jobs:
+    """Jobs are plain data: all a worker needs beside an installed coursekit, on this machine or another."""
+
+    def __init__(self, course: Course, units: list[str], *, seed: int, box: bool, limits: Limits):
+        place = None if course == the_course() else [str(course.notebooks), str(course.classroom)]
+        self._common = {"course": place, "seed": seed, "box": box, "limits": asdict(limits)}
+        self._course, self._units = course, units
+        self._libraries = {unit: worker.library(course, unit, seed) for unit in units}
+
+    def job(self, handed_in: Submissions, student: str, unit: str) -> dict:
+        return self._job(student, unit, handed_in.data(student, unit), handed_in.note(student, unit))
+
+    def canaries(self) -> Iterator[dict]:
+        """The solved notebooks and the untouched ones, graded as if they were handed in."""
+        for unit in self._units:
+            solved = notebook.read(self._course.notebook(unit))
+            for student, document in (("solved", solved), ("untouched", notebook.student_version(solved))):
+                yield self._job(student, unit, json.dumps(document).encode(), "")
+
+    def _job(self, student: str, unit: str, data: bytes | None, note: str) -> dict:
+        return {
+            **self._common,
+            "library": self._libraries[unit],
+            "student": student,
+            "unit": unit,
+            "name": self._course.notebook(unit).name,
+            "notebook": None if data is None else base64.b64encode(data).decode(),
+            "digest": digest(data),
+            "note": note,
+            "exercises": [(e.name, e.points) for e in self._course.exercises(unit)],
+        }
+
+
+def run_all(executor: futures.Executor, jobs: Iterator[dict], ahead: int) -> Iterator[dict]:
+    """Records in the order they finish. Few jobs are sent ahead: a whole class may not fit into memory."""
+    running: dict[futures.Future, dict] = {}
+    for job in jobs:
+        running[executor.submit(grade_one, job)] = {**job, "notebook": None}
+        if len(running) >= ahead:
+            yield from _finished(running)
+    while running:
+        yield from _finished(running)
+
+
+def _finished(running: dict) -> Iterator[dict]:
+    done, _ = futures.wait(running, return_when=futures.FIRST_COMPLETED)
+    for future in done:
+        job = running.pop(future)
+        try:
+            yield future.result()
+        except Exception as error:  # the machine it ran on is gone, say
+            yield _failed(job, f"{type(error).__name__}: {error}")
+
+
+# ---- one submission
+
+
+def grade_one(job: dict) -> dict:
+    """The record of one submission. Plain data in and out, for any executor on any machine."""
+    if job["notebook"] is None:
+        exercises = {name: {"points": 0, "of": of, "text": job["note"]} for name, of in job["exercises"]}
+        return {**_head(job), "exercises": exercises, "notes": [job["note"]]}
+    why, start = "", time.monotonic()
+    for _ in range(2):  # once more if the worker itself fails: that is nobody's grade
+        result, why = _worker(job)
+        if result is not None:
+            return {**_head(job), **result, "seconds": round(time.monotonic() - start, 2)}
+    return _failed(job, why)
+
+
+def _head(job: dict) -> dict:
+    return {key: job[key] for key in ("student", "unit", "name", "digest")}
+
+
+def _failed(job: dict, why: str) -> dict:
+    return {**_head(job), "failed": True, "exercises": {}, "notes": [f"could not be graded: {why}"]}
+
+
+def _worker(job: dict) -> tuple[dict | None, str]:
+    """(what the worker found, '') or (None, what befell the worker)."""
+    seconds = job["limits"]["submission"] + SPARE
+    with tempfile.TemporaryFile() as errors:  # no pipe: whoever inherits it could keep us waiting
+        process = subprocess.Popen(
+            [sys.executable, "-m", "coursekit.classroom.worker"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=errors,
+            start_new_session=True,
+            env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"},
+        )
+        try:
+            output, _ = process.communicate(json.dumps(job).encode(), timeout=seconds)
+            return json.loads(output), ""
+        except subprocess.TimeoutExpired:
+            return None, f"no result within {seconds:g} s"
+        except (ValueError, OSError):
+            errors.seek(0)
+            lines = errors.read()[-2000:].decode(errors="replace").strip().splitlines()
+            return None, f"exit code {process.wait()}: {lines[-1] if lines else ''}"
+        finally:
+            with contextlib.suppress(ProcessLookupError, PermissionError):
+                os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+
+
+# ---- all of them
+
+
+def _canaries(records: Iterator[dict]) -> None:
+    """ValueError unless solved notebooks get full marks and untouched ones nothing."""
+    for record in records:
+        points, of = report.total(record, "points"), report.total(record, "of")
+        if points is None or points != (of if record["student"] == "solved" else 0):
+            why = [f"{name}: {row['text']}" for name, row in record["exercises"].items() if row["text"]]
+            raise ValueError(
+                f"the {record['student']} {record['name']} gets {points} of {of} points, "
+                f"so nobody is graded: {'; '.join(record['notes'] + why)}"
+            )
+
+
+def _write(out: Path, students: list[str], units: list[str], journal: Journal, box: bool) -> str:
+    failed = 0
+    with contextlib.closing(report.Gradebook(out / "grades.csv", units, box)) as book:
+        for student in students:
+            results = {unit: journal.record(student, unit) for unit in units}
+            failed += sum(bool(record.get("failed")) for record in results.values())
+            book.row(student, results)
+            report.write_page(out / f"{student}.html", student, results)
+    text = f"{len(students)} students, {len(units)} notebooks: {out / 'grades.csv'}"
+    return text + (f"; {failed} COULD NOT BE GRADED, run it again" if failed else "")
+
+
+def _progress(total: int, done: int, show: bool):
+    from tqdm import tqdm
+
+    return tqdm(total=total, initial=done, unit="notebook", disable=not show)

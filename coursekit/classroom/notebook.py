@@ -1,0 +1,140 @@
+"""The solved notebook: the only source of every solution; student version and references come from it.
+
+Markers and cell metadata are nbgrader's (schema 3): a cell whose `nbgrader.solution` is true holds what the
+student writes, one with `nbgrader.grade` holds its check. Tags: `setup` (imports), `instructor` (not for
+students).
+"""
+
+from __future__ import annotations
+
+import copy
+import json
+import linecache
+import os
+import re
+from pathlib import Path
+from types import SimpleNamespace
+
+STUB = "# your code here\nraise NotImplementedError"
+
+KERNEL = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
+
+# names a live widget by a random id: nothing without its kernel, where the stored picture should show instead
+_LIVE_VIEW = "application/vnd.jupyter.widget-view+json"
+
+_SOLUTION = re.compile(r"^([ \t]*)### BEGIN SOLUTION[ \t]*\n.*?^[ \t]*### END SOLUTION[ \t]*$", re.S | re.M)
+
+
+def read(path: Path) -> dict:
+    """A notebook as plain data, sources joined to strings."""
+    notebook = json.loads(Path(path).read_text(encoding="utf-8"))
+    for cell in notebook["cells"]:
+        if isinstance(cell["source"], list):
+            cell["source"] = "".join(cell["source"])
+    return notebook
+
+
+def write(path: Path, notebook: dict) -> None:
+    """As Jupyter writes it: sources as lists of lines, indented by one, keys sorted, a newline at the end."""
+    notebook = copy.deepcopy(notebook)
+    for cell in notebook["cells"]:
+        cell["source"] = cell["source"].splitlines(keepends=True)
+    text = json.dumps(notebook, ensure_ascii=False, indent=1, sort_keys=True) + "\n"
+    Path(path).write_text(text, encoding="utf-8", newline="\n")
+
+
+def is_solution(cell: dict) -> bool:
+    """Does the student write this cell?"""
+    return bool(_role(cell).get("solution"))
+
+
+def is_check(cell: dict) -> bool:
+    """Does this cell check one the student writes?"""
+    return bool(_role(cell).get("grade")) and not is_solution(cell)
+
+
+def _role(cell: dict) -> dict:
+    role = cell.get("metadata", {}).get("nbgrader", {})
+    return role if cell.get("cell_type") == "code" and isinstance(role, dict) else {}
+
+
+def tags(cell: dict) -> list:
+    """The cell's tags."""
+    return cell.get("metadata", {}).get("tags", [])
+
+
+def references(path: Path) -> SimpleNamespace:
+    """What the set-up cell and the solution cells of a solved notebook define. Run trusted notebooks only."""
+    namespace = {"__name__": "solved"}
+    for number, cell in enumerate(read(path)["cells"]):
+        if is_solution(cell) or (cell["cell_type"] == "code" and "setup" in tags(cell)):
+            run_cell(cell["source"], f"{Path(path).name}, cell {cell.get('id', number)}", namespace)
+    return SimpleNamespace(**namespace)
+
+
+def run_cell(source: str, name: str, namespace: dict) -> None:
+    """Execute plain Python so that a traceback can show its lines."""
+    linecache.cache[name] = (len(source), None, source.splitlines(keepends=True), name)
+    exec(compile(source, name, "exec"), namespace)
+
+
+def student_version(notebook: dict) -> dict:
+    """Without solutions, instructors' cells and outputs."""
+    notebook = copy.deepcopy(notebook)
+    notebook["cells"] = [cell for cell in notebook["cells"] if "instructor" not in tags(cell)]
+    for cell in notebook["cells"]:
+        cell["source"] = without_solution(cell["source"])
+        if cell["cell_type"] == "code":
+            cell["outputs"], cell["execution_count"] = [], None
+    return notebook
+
+
+def without_solution(source: str) -> str:
+    """A stub in place of everything between the markers; ValueError if they do not pair up."""
+
+    def stub(match):
+        return "\n".join(match[1] + line for line in STUB.splitlines())
+
+    source = _SOLUTION.sub(stub, source).rstrip("\n")
+    if re.search(r"###\s*(BEGIN|END)\s", source):
+        raise ValueError(f"unbalanced solution marker in the cell that begins {source[:60]!r}")
+    return source
+
+
+def execute(path: Path, timeout: float = 120) -> None:
+    """Run a notebook top to bottom and store its outputs, normalised; raises where a cell does.
+
+    Nothing is stored that differs from one machine or run to the next: versions, times, widget state.
+    A failing check raises.
+    """
+    import nbformat
+    from nbclient import NotebookClient
+
+    path = Path(path)
+    document = nbformat.from_dict(read(path))
+    client = NotebookClient(
+        document,
+        kernel_name="python3",
+        timeout=timeout,
+        store_widget_state=False,
+        record_timing=False,
+        coalesce_streams=True,
+        resources={"metadata": {"path": str(path.parent)}},
+    )
+    client.execute(env={**os.environ, "CI": "1"})
+    write(path, normalised(json.loads(nbformat.writes(document))))
+
+
+def normalised(notebook: dict) -> dict:
+    """The same in every editor and on every machine."""
+    notebook = copy.deepcopy(notebook)
+    notebook["metadata"] = {"kernelspec": KERNEL, "language_info": {"name": "python"}}
+    notebook["nbformat"], notebook["nbformat_minor"] = 4, 5
+    for cell in notebook["cells"]:
+        cell["metadata"] = {k: v for k, v in cell["metadata"].items() if k in ("nbgrader", "tags")}
+        if isinstance(cell["source"], list):
+            cell["source"] = "".join(cell["source"])
+        cell["source"] = cell["source"].rstrip("\n")
+        for output in cell.get("outputs", ()):
+            output.get("data", {}).pop(_LIVE_VIEW, None)
+    return notebook

@@ -1,0 +1,224 @@
+"""The grader itself: what is handed in, canaries, journal and resume, executors, memory."""
+
+from __future__ import annotations
+
+import concurrent.futures as futures
+import csv
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import tracemalloc
+
+import psutil
+import pytest
+
+from coursekit.classroom import grade, notebook
+from coursekit.classroom.box import bubblewrap
+from coursekit.classroom.course import Course
+from tests.classroom.small import COURSE, HERE, NAME, ROOT, grade_small, hand_in, points, records
+
+needs_box = pytest.mark.skipif(
+    not bubblewrap() and not os.environ.get("CI"), reason="bubblewrap does not work here"
+)
+pytestmark = pytest.mark.box
+FULL, NOTHING = (2, 3, 3, 4), (0, 0, 0, 0)
+
+
+@pytest.fixture
+def solved():
+    return notebook.read(COURSE.notebook("nb01"))
+
+
+def wrong_fk(solved):
+    return json.loads(json.dumps(solved).replace("np.cos(a) +", "np.sin(a) +"))
+
+
+def rows(out):
+    with open(out / "grades.csv", newline="", encoding="utf-8") as file:
+        return {row["student"]: row for row in csv.DictReader(file)}
+
+
+@needs_box
+def test_links_folders_and_pipes_are_not_followed_and_nobody_is_forgotten(tmp_path, solved):
+    classmate = hand_in(tmp_path / "in", "ann", solved)
+    for student in ("link", "folder", "pipe", "missing", "otherwise named", "=1+1"):
+        (tmp_path / "in" / student).mkdir()
+    (tmp_path / "in" / "link" / NAME).symlink_to(classmate)
+    (tmp_path / "in" / "folder" / NAME).mkdir()
+    os.mkfifo(tmp_path / "in" / "pipe" / NAME)
+    shutil.copy(classmate, tmp_path / "in" / "otherwise named" / "arm (1).ipynb")
+    (tmp_path / "in" / "alias").symlink_to(tmp_path / "in" / "ann")
+    (tmp_path / "in" / "notes.txt").write_text("not a student")
+    summary = grade_small(tmp_path / "in", tmp_path / "out")
+    assert "8 students" in summary
+    table = rows(tmp_path / "out")
+    assert table.pop("ann")["points"] == "12"
+    assert set(table) == {"link", "folder", "pipe", "missing", "otherwise named", "'=1+1", "alias"}
+    assert {row["points"] for row in table.values()} == {"0"}
+    assert "link" in table["link"]["notes"] and "link" in table["alias"]["notes"]
+    assert "arm (1).ipynb" in table["otherwise named"]["notes"]
+    assert "nothing handed in" in table["missing"]["notes"]
+
+
+@needs_box
+def test_the_same_seed_gives_the_same_grades_and_feedback(tmp_path, solved):
+    hand_in(tmp_path / "in", "ann", solved)
+    hand_in(tmp_path / "in", "bob", wrong_fk(solved))
+    tables = []
+    for run in ("one", "two"):
+        grade_small(tmp_path / "in", tmp_path / run, seed=5)
+        tables.append((tmp_path / run / "grades.csv").read_text())
+    assert tables[0] == tables[1]
+    assert "wrong on 8 of 8" in tables[0]
+    with pytest.raises(ValueError, match="another run"):
+        grade_small(tmp_path / "in", tmp_path / "one", seed=6)
+
+
+SCRIPT = """
+import sys
+from tests.classroom.small import grade_small
+from pathlib import Path
+grade_small(Path(sys.argv[1]), Path(sys.argv[2]), jobs=1)
+"""
+
+
+@needs_box
+def test_nothing_is_lost_after_a_kill_in_the_middle(tmp_path, solved):
+    for student in ("ann", "bob", "cem", "dan"):
+        hand_in(tmp_path / "in", student, solved)
+    journal = tmp_path / "out" / "journal.jsonl"
+    command = [sys.executable, "-c", SCRIPT, str(tmp_path / "in"), str(tmp_path / "out")]
+    grader = subprocess.Popen(command, cwd=ROOT)
+    while not journal.exists() or len(journal.read_bytes().splitlines()) < 2:
+        assert grader.poll() is None
+        time.sleep(0.05)
+    children = psutil.Process(grader.pid).children(recursive=True)
+    os.kill(grader.pid, signal.SIGKILL)
+    grader.wait()
+    psutil.wait_procs(children, timeout=20)
+    assert not [p for p in children if p.is_running() and p.status() != psutil.STATUS_ZOMBIE]
+
+    with open(journal, "ab") as file:
+        file.write(b'{"student": "bob", "uni')  # it may be killed while it writes
+    before = records_that_are_whole(journal)
+    assert 1 <= len(before) < 4
+    grade_small(tmp_path / "in", tmp_path / "out")
+    after = records(tmp_path / "out")
+    assert after[: len(before)] == before
+    assert sorted(r["student"] for r in after) == ["ann", "bob", "cem", "dan"]
+    assert {row["points"] for row in rows(tmp_path / "out").values()} == {"12"}
+
+
+def records_that_are_whole(journal):
+    return [json.loads(line) for line in journal.read_bytes().split(b"\n")[1:-1]]
+
+
+@needs_box
+def test_a_resubmission_is_graded_again_and_nothing_else(tmp_path, solved):
+    hand_in(tmp_path / "in", "ann", solved)
+    hand_in(tmp_path / "in", "bob", wrong_fk(solved))
+    grade_small(tmp_path / "in", tmp_path / "out")
+    assert rows(tmp_path / "out")["bob"]["points"] == "10"
+    hand_in(tmp_path / "in", "bob", solved)
+    grade_small(tmp_path / "in", tmp_path / "out")
+    assert rows(tmp_path / "out")["bob"]["points"] == "12"
+    assert sorted(r["student"] for r in records(tmp_path / "out")) == ["ann", "bob", "bob"]
+
+
+@needs_box
+@pytest.mark.parametrize("fault", ["solution wrong", "stub right"])
+def test_canaries_stop_the_grading(tmp_path, solved, fault):
+    """A set-up in which right is not right, or in which nothing suffices, gives no grades at all."""
+    shutil.copytree(HERE / "course", tmp_path / "course")
+    path = tmp_path / "course" / "notebooks" / NAME
+    if fault == "solution wrong":
+        solved["cells"].append(hidden_harm("def fk(theta, l1, l2):\n    return np.zeros(2)"))
+    else:
+        text = json.dumps(solved).replace("### BEGIN SOLUTION", "# ...").replace("### END SOLUTION", "# .")
+        solved = json.loads(text)
+    notebook.write(path, solved)
+    hand_in(tmp_path / "in", "ann", solved)
+    course = Course(tmp_path / "course" / "notebooks", tmp_path / "course")
+    with pytest.raises(ValueError, match="nobody is graded"):
+        grade_small(tmp_path / "in", tmp_path / "out", course=course)
+    assert not (tmp_path / "out" / "grades.csv").exists()
+
+
+def hidden_harm(source):
+    cell = {"cell_type": "code", "id": "harm", "metadata": {}, "source": source}
+    return {**cell, "outputs": [], "execution_count": None}
+
+
+def test_without_a_box_grading_refuses(tmp_path, solved, monkeypatch):
+    hand_in(tmp_path / "in", "ann", solved)
+    monkeypatch.setattr(grade, "bubblewrap", lambda: None)
+    with pytest.raises(ValueError, match="--no-box"):
+        grade_small(tmp_path / "in", tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_grading_without_a_box_works_and_the_table_says_so(tmp_path, solved):
+    hand_in(tmp_path / "in", "ann", solved)
+    grade_small(tmp_path / "in", tmp_path / "out", box=False)
+    row = rows(tmp_path / "out")["ann"]
+    assert (row["points"], row["box"]) == ("12", "NO BOX")
+
+
+@needs_box
+def test_a_failure_of_the_grader_is_no_grade(tmp_path, solved, monkeypatch):
+    hand_in(tmp_path / "in", "ann", solved)
+    hand_in(tmp_path / "in", "bob", solved)
+    real = grade._worker
+
+    def failing(job):
+        return (None, "the disk is full") if job["student"] == "bob" else real(job)
+
+    monkeypatch.setattr(grade, "_worker", failing)
+    assert "1 COULD NOT BE GRADED" in grade_small(tmp_path / "in", tmp_path / "out")
+    table = rows(tmp_path / "out")
+    assert table["ann"]["points"] == "12"
+    assert table["bob"]["points"] == ""
+    assert "the disk is full" in table["bob"]["notes"]
+    monkeypatch.undo()
+    grade_small(tmp_path / "in", tmp_path / "out")
+    assert rows(tmp_path / "out")["bob"]["points"] == "12"
+
+
+@needs_box
+def test_a_dask_cluster_takes_the_jobs_unchanged(tmp_path, solved):
+    distributed = pytest.importorskip("distributed")
+    hand_in(tmp_path / "in", "ann", solved)
+    hand_in(tmp_path / "in", "bob", wrong_fk(solved))
+    options = {"n_workers": 2, "threads_per_worker": 1, "processes": True, "dashboard_address": None}
+    with (
+        distributed.LocalCluster(**options, local_directory=str(tmp_path / "dask")) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        grade_small(tmp_path / "in", tmp_path / "out", executor=client.get_executor(pure=False))
+    assert {r["student"]: points(r) for r in records(tmp_path / "out")} == {"ann": FULL, "bob": (0, 3, 3, 4)}
+
+
+def test_a_large_class_is_never_in_memory_at_once(monkeypatch):
+    """1,200 submissions of 1 MB, of which a handful are alive at any time."""
+    alive = []
+
+    def instantly(job):
+        alive.append(tracemalloc.get_traced_memory()[0])
+        return {k: job[k] for k in ("student", "unit", "digest")}
+
+    def jobs():
+        for number in range(1200):
+            job = {"student": str(number), "unit": "nb01", "digest": "", "name": NAME}
+            yield {**job, "notebook": "x" * 1_000_000 + str(number)}
+
+    monkeypatch.setattr(grade, "grade_one", instantly)
+    tracemalloc.start()
+    with futures.ThreadPoolExecutor(2) as executor:
+        students = [record["student"] for record in grade.run_all(executor, jobs(), 6)]
+    tracemalloc.stop()
+    assert sorted(students, key=int) == [str(number) for number in range(1200)]
+    assert max(alive) < 20_000_000

@@ -1,0 +1,143 @@
+"""A release is searched for everything that would give an answer away, and is used as a student would."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from coursekit.classroom import notebook, release, tables
+from coursekit.classroom.course import the_course
+from coursekit.classroom.exercise import answer, thaw
+from tests.classroom.small import COURSE
+
+COURSES = {"small": COURSE, "course": the_course()}
+
+
+@pytest.fixture(scope="module", params=COURSES)
+def released(request, tmp_path_factory):
+    course = COURSES[request.param]
+    out = tmp_path_factory.mktemp("release") / "out"
+    release.release(out, course)
+    return course, out
+
+
+def texts(out) -> dict[str, str]:
+    return {str(p.relative_to(out)): p.read_text("utf-8") for p in out.rglob("*") if p.is_file()}
+
+
+def units(course) -> list[str]:
+    return [unit for unit in course.units if course.notebook(unit)]
+
+
+def test_it_holds_what_is_needed_and_no_more(released):
+    _, out = released
+    assert {p.name for p in out.iterdir()} == {
+        "README.md",
+        "coursekit",
+        "environment.txt",
+        "notebooks",
+        "pyproject.toml",
+    }
+    modules = {p.name for p in (out / "coursekit" / "classroom").iterdir()}
+    assert modules == set(release.CLASSROOM)
+    assert not [p for p in out.rglob("*") if p.name.startswith(".git") or p.name == "__pycache__"]
+
+
+def test_no_solution_and_no_marker_is_left(released):
+    course, out = released
+    found = {name: text for name, text in texts(out).items() if "kinematics" not in name}
+    for unit in units(course):
+        for cell in notebook.read(course.notebook(unit))["cells"]:
+            if notebook.is_solution(cell):
+                inside = re.findall(r"### BEGIN SOLUTION\n(.*?)### END SOLUTION", cell["source"], re.S)
+                assert inside, f"{unit}: a solution cell without markers: {cell['source'][:60]}"
+                for line in "".join(inside).splitlines():
+                    line = json.dumps(line.strip())[1:-1]
+                    if len(line) > 30:
+                        assert not [name for name, text in found.items() if line in text], line
+    assert not [name for name, text in found.items() if re.search(r"(BEGIN|END) SOLUTION", text)]
+
+
+def test_no_cell_for_instructors_and_no_output_is_left(released):
+    course, out = released
+    for unit in units(course):
+        solved = notebook.read(course.notebook(unit))
+        given = notebook.read(out / "notebooks" / course.notebook(unit).name)
+        secret = [c["source"] for c in solved["cells"] if "instructor" in notebook.tags(c)]
+        sources = [c["source"] for c in given["cells"]]
+        assert not set(secret) & set(sources)
+        assert len(sources) == len(solved["cells"]) - len(secret)
+        code = [c for c in given["cells"] if c["cell_type"] == "code"]
+        assert all(c["outputs"] == [] and c["execution_count"] is None for c in code)
+        for exercise in course.exercises(unit):
+            assert any(exercise.name in s and "raise NotImplementedError" in s for s in sources)
+
+
+def test_no_expected_number_can_be_read(released):
+    """Full digits of right and of wrong answers to the public inputs, anywhere in the release."""
+    course, out = released
+    readable = set(re.findall(r"\d+\.\d{6,}(?:e[-+]?\d+)?", "\n".join(texts(out).values())))
+    for unit in units(course):
+        solved = tables.solutions(course, unit)
+        for exercise in course.exercises(unit):
+            functions = [getattr(solved, exercise.name), *course.wrong(unit)[exercise.name].values()]
+            rows = course.samples(unit)[exercise.name]
+            given = str([row["args"] for row in rows])  # an answer may repeat a number it was given
+            answers = []
+            with np.errstate(all="ignore"):
+                for row in rows:
+                    answers += [answer(exercise, function(*thaw(row["args"]))) for function in functions]
+            numbers = {repr(abs(float(x))) for parts in answers for part in parts for x in part.ravel()}
+            assert not {x for x in numbers & readable if len(x) > 12 and x not in given}
+
+
+def run_in(folder, code: str) -> str:
+    """Python in a release, which it imports coursekit from."""
+    environment = {k: v for k, v in os.environ.items() if k != "CI"} | {"PYTHONPATH": str(folder)}
+    run = subprocess.run(
+        [sys.executable, "-c", code], cwd=folder, env=environment, capture_output=True, text=True
+    )
+    assert run.returncode == 0, run.stderr
+    return run.stdout
+
+
+@pytest.mark.parametrize("released", ["course"], indirect=True)
+def test_a_student_can_check_there(released):
+    course, out = released
+    unit = units(course)[0]
+    exercise = course.exercises(unit)[0]
+    cells = notebook.read(course.notebook(unit))["cells"]
+    solution = next(c["source"] for c in cells if notebook.is_solution(c))
+    stub = notebook.without_solution(solution)
+    say = f"from coursekit import check\nimport numpy as np\n{{}}\ncheck({exercise.name!r}, {exercise.name})"
+    assert run_in(out, say.format(stub)) == f"… {exercise.name}: not written yet\n"
+    assert run_in(out, say.format(solution)).startswith(f"✓ {exercise.name}: right on")
+    where = run_in(out, "import coursekit; print(coursekit.__file__)")
+    assert where.startswith(str(out))
+
+
+@pytest.mark.parametrize("released", ["course"], indirect=True)
+@pytest.mark.parametrize("command", [["grade", "a", "b"], ["samples"], ["release", "x"]])
+def test_instructors_commands_are_not_there(released, command):
+    _, out = released
+    environment = {**os.environ, "PYTHONPATH": str(out)}
+    run = [sys.executable, "-m", "coursekit", *command]
+    done = subprocess.run(run, cwd=out, env=environment, capture_output=True, text=True)
+    assert done.returncode == 2
+    assert "not part of the students' version" in done.stderr
+
+
+def test_it_never_overwrites(tmp_path):
+    with pytest.raises(ValueError, match="exists already"):
+        release.release(tmp_path, COURSE)
+
+
+def test_an_unbalanced_marker_is_an_error():
+    with pytest.raises(ValueError, match="unbalanced"):
+        notebook.without_solution("def f():\n    ### BEGIN SOLUTION\n    return 1\n")
