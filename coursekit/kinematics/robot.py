@@ -7,10 +7,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from . import checks, dh, lie
+from . import checks, dh, lie, screws
 
 CHUNK = 2048  # configurations per block: keeps the working set of a large batch in the cache
-UNIT = 1e-9  # how far from 1 the direction of a screw may be
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,14 +68,14 @@ class Robot:
         self._store("S", S, (6, n))
         self._store("M", checks.pose(self.M, f"{self.name}: M"), (4, 4))
         self._store("B", lie.adjoint(lie.inverse(self.M)) @ S, (6, n))
-        object.__setattr__(self, "joint_types", self._types_of(S))
-        constants = np.array([_exponential_constants(s) for s in S.T])
+        object.__setattr__(self, "joint_types", screws.joint_types(S, self.joint_types, self.name))
+        constants = np.array([screws.exponential_constants(s) for s in S.T])
         self._store("_exponentials", constants.reshape(n, 4, 16), (n, 4, 16))
         constants[-1] = constants[-1] @ self.M
         self._store("_exponentials_to_tool", constants.reshape(n, 4, 16), (n, 4, 16))
         self._store("_frames_at_zero", self._place_frames(), (n, 4, 4))
-        self._store("_axis_steps", _steps_along(S), (n, 4, 4))
-        self._store("_slides", [_slide(s) for s in S.T], (n,))
+        self._store("_axis_steps", screws.steps_along(S), (n, 4, 4))
+        self._store("_slides", [screws.slide(s) for s in S.T], (n,))
 
     def _store(self, key, value, shape):
         """Fields are set once, as read-only copies: a frozen dataclass allows no plain assignment."""
@@ -219,7 +218,8 @@ class Robot:
     def _link_exponentials(self, theta, constants):
         """e^[S_i]theta_i of every joint. theta (N, n) -> (n, N, 4, 4): one product, no loop."""
         t = theta.T
-        basis = np.stack([np.ones_like(t), np.sin(t), np.cos(t), t], axis=-1)
+        basis = np.empty((*t.shape, 4))
+        basis[..., 0], basis[..., 1], basis[..., 2], basis[..., 3] = 1, np.sin(t), np.cos(t), t
         return (basis @ constants).reshape(self.n, -1, 4, 4)
 
     # -- Jacobians -------------------------------------------------------------------------------------------
@@ -239,34 +239,9 @@ class Robot:
         J = np.empty((len(flat), 6, self.n))
         for start in range(0, len(flat), CHUNK):
             block = slice(start, start + CHUNK)
-            J[block] = self._moved_screws(flat[block].T).transpose(2, 0, 1)
+            moved = screws.moved(flat[block].T, self.joint_types, self._axis_steps, self._slides)
+            J[block] = moved.transpose(2, 0, 1)
         return J.reshape(*theta.shape[:-1], 6, self.n)
-
-    def _moved_screws(self, theta):
-        """Every screw where it is now. theta (n, N) -> (6, n, N): components first, batch last is fast.
-
-        A frame (x, y, z, o) rides on every axis, z along it. A hinge turns x towards y, a slide moves o along
-        z, and a constant step leads to the frame on the next axis. The screw of a hinge is (z; o x z).
-        """
-        cos, sin = np.cos(theta), np.sin(theta)
-        J, o = np.empty((6, *theta.shape)), np.empty((3, *theta.shape))
-        z = J[:3]
-        frame = np.eye(4)[:, :3, None] + np.zeros_like(theta[0])  # (4, 3, N): columns, components, batch
-        for i, step in enumerate(self._axis_steps):
-            frame = (step.T @ frame.reshape(4, -1)).reshape(frame.shape)
-            x, y, z[:, i], o[:, i] = frame
-            if self.joint_types[i] == "revolute":
-                frame[0], frame[1] = cos[i] * x + sin[i] * y, cos[i] * y - sin[i] * x
-            if self._slides[i]:
-                frame[3] += self._slides[i] * theta[i] * z[:, i]
-        J[3:] = _cross(o, z)
-        for i in np.flatnonzero(self._slides):  # a slide: (0; z); a screw of pitch h: (z; o x z + h z)
-            along = self._slides[i] * z[:, i]
-            if self.joint_types[i] == "revolute":
-                J[3:, i] += along
-            else:
-                J[3:, i], J[:3, i] = along, 0
-        return J
 
     def jacobian_body(self, theta):
         """J_b: V_b = J_b thetadot, in the tool frame. theta (..., n) -> (..., 6, n), rows (omega; v).
@@ -282,7 +257,7 @@ class Robot:
         """
         J, p = self.jacobian_space(theta), self.fk(theta)[..., :3, 3]
         w = np.moveaxis(J[..., :3, :], -2, 0)
-        J[..., 3:, :] += np.moveaxis(_cross(w, np.moveaxis(p, -1, 0)[..., None]), 0, -2)
+        J[..., 3:, :] += np.moveaxis(screws.cross(w, np.moveaxis(p, -1, 0)[..., None]), 0, -2)
         return J
 
     # -- limits ----------------------------------------------------------------------------------------------
@@ -321,74 +296,9 @@ class Robot:
 
     # -- how it is put together ------------------------------------------------------------------------------
 
-    def _types_of(self, S):
-        """Joint types that the screws themselves say; a ValueError where they contradict what was given."""
-        length, speed = np.linalg.norm(S[:3], axis=0), np.linalg.norm(S[3:], axis=0)
-        for i in range(S.shape[1]):
-            if length[i] == 0 and speed[i] == 0:
-                raise ValueError(
-                    f"{self.name}: screw {i + 1} has direction zero: (omega; v) = 0 moves nothing"
-                )
-            size, part = (speed[i], "|v|") if length[i] == 0 else (length[i], "|omega|")
-            if abs(size - 1) > UNIT:
-                raise ValueError(f"{self.name}: screw {i + 1} must have {part} = 1, got {size:.6g}")
-        said = tuple("prismatic" if w == 0 else "revolute" for w in length)
-        given = dh.joint_types(self.joint_types, S.shape[1]) if self.joint_types is not None else said
-        if given != said:
-            raise ValueError(f"{self.name}: joint_types say {given}, but the screws in S are {said}")
-        return said
-
     def _place_frames(self):
         """The link frames at theta = 0, see link_frames. (n, 4, 4)."""
-        if self.modified_dh is not None:
-            frames = self.modified_dh.frames(np.zeros(self.n))
-        else:
-            frames, origin = np.tile(np.eye(4), (self.n, 1, 1)), np.zeros(3)
-            for i, s in enumerate(self.S.T):
-                w = s[:3] if self.joint_types[i] == "revolute" else s[3:]
-                if self.joint_types[i] == "revolute":
-                    on_axis = np.cross(w, s[3:])
-                    origin = on_axis + w * (w @ (origin - on_axis))
-                frames[i, :3, :3], frames[i, :3, 3] = _frame_along(w), origin
+        tables = self.modified_dh
+        frames = screws.frames_on(self.S) if tables is None else tables.frames(np.zeros(self.n))
         frames[-1] = self.M
-        frames.setflags(write=False)
         return frames
-
-
-def _exponential_constants(s):
-    """K (4, 4, 4) with e^[s]t = K[0] + sin t K[1] + cos t K[2] + t K[3], for any unit screw s.
-
-    Rodrigues' formula e^[s]t = I + sin t [s] + (1 - cos t) [s]^2 + (t - sin t) ([s] + [s]^3), ordered by what
-    changes with t. The last bracket is what a screw slides along: 0 for a hinge, [s] for a prismatic joint.
-    """
-    X = lie.hat6(s)
-    slide = X + X @ X @ X
-    return np.array([np.eye(4) + X @ X, X - slide, -X @ X, slide])
-
-
-def _steps_along(S):
-    """Pose of a frame on each axis (z along it) in the frame on the axis before, at theta = 0. (n, 4, 4)."""
-    frames = np.tile(np.eye(4), (S.shape[1] + 1, 1, 1))  # the first is the space frame
-    for frame, s in zip(frames[1:], S.T, strict=True):
-        w, v = s[:3], s[3:]
-        frame[:3, :3], frame[:3, 3] = _frame_along(w if np.any(w) else v), np.cross(w, v)
-    return lie.inverse(frames[:-1]) @ frames[1:]
-
-
-def _slide(s):
-    """How far a joint slides along its axis per radian or metre: 0 for a hinge, 1 for a prismatic joint."""
-    pitch = s[:3] @ s[3:] if np.any(s[:3]) else 1.0
-    return pitch if abs(pitch) > UNIT else 0.0
-
-
-def _frame_along(w):
-    """A rotation whose z is w, x as near to the x (or, failing that, the y) of the space frame as can be."""
-    x = np.array([1.0, 0, 0]) if abs(w[0]) < 0.9 else np.array([0, 1.0, 0])
-    x = x - w * (w @ x)
-    x = x / np.linalg.norm(x)
-    return np.stack([x, np.cross(w, x), w], axis=-1)
-
-
-def _cross(a, b):
-    """a x b over the first axis: np.cross with less ceremony (it costs 15 us a call)."""
-    return np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
