@@ -138,6 +138,9 @@ EXERCISES = [
             Hint("v_first", "S is (omega; v): you took its first three numbers for v"),
             Hint("theta_v", "theta v is the translation of a slide; a hinge moves the origin along an arc"),
             Hint("sin_sin", "the last coefficient is theta - sin(theta): one sine, not two"),
+            Hint(
+                "no_pitch", "v may have a part along omega: such a screw slides as it turns, yours only turns"
+            ),
             Hint("slide_turns", "where omega is zero nothing turns: the joint slides along v"),
             Hint("turned_back", "it turns the wrong way round: check the signs in [omega]"),
         ),

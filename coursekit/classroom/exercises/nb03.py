@@ -169,7 +169,9 @@ EXERCISES = [
             Hint("swapped", "numpy's arctan2 takes the sine first, then the cosine"),
             Hint("not_removed", "only the parts of x and y across k turn: take the part along k away first"),
             Hint("sign", "it turns the other way: the sine is measured about k, from x to y"),
-            Hint("arccos", "an arccos never gives a negative angle: the sense of the turn is lost"),
+            Hint(
+                "arccos", "an arccos, or a norm as the sine, is never negative: the sense of the turn is lost"
+            ),
             Hint("arctan", "arctan of a quotient knows two quadrants only: use arctan2"),
         ),
     ),
@@ -232,7 +234,7 @@ EXERCISES = [
                 "no_flip", "joints 4 to 6 have two solutions for each of the four arms: four rows are missing"
             ),
             Hint("duplicates", "some rows stand twice, and others are missing"),
-            Hint("R_reversed", "what is left for the wrist is R_13 transposed times R_sd, in this order"),
+            Hint("R_reversed", "what is left for the wrist is R_123 transposed times R_sd, in this order"),
         ),
     ),
     Exercise(

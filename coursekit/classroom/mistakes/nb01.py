@@ -100,6 +100,11 @@ def exp_sin_sin(S, theta):  # Panda programming assignment
     return T
 
 
+def exp_without_pitch(S, theta):
+    w, v = S[:3], S[3:]
+    return right.screw_exp(np.concatenate([w, v - w * (w @ v)]), theta)
+
+
 def exp_slide_turns(S, theta):
     return right.screw_exp(np.roll(S, 3) if not S[:3].any() else S, theta)
 
@@ -195,6 +200,7 @@ WRONG = {
         "v_first": exp_v_first,
         "theta_v": exp_theta_v,
         "sin_sin": exp_sin_sin,
+        "no_pitch": exp_without_pitch,
         "slide_turns": exp_slide_turns,
         "turned_back": exp_turned_back,
     },

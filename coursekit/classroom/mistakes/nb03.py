@@ -123,15 +123,15 @@ def wrist_half_flipped(R):
 # -- all_solutions
 
 
-def _joined(T_sd, lengths, tool, reaches, wrist=lambda R_13, R_sd: R_13.T @ R_sd):
+def _joined(T_sd, lengths, tool, reaches, wrist=lambda R_123, R_sd: R_123.T @ R_sd):
     """Rows of every branch for reaches = [(theta1, r), ...]."""
     rows = []
     z = right.wrist_centre(T_sd, tool)[2]
     with np.errstate(invalid="ignore"):
         for t1, r in reaches:
             for t2, t3 in right.elbow_solutions(r, z, lengths):
-                R_13 = rotations.rotz(-t1) @ rotations.roty(t2 + t3)
-                rows += [[t1, t2, t3, *w] for w in right.wrist_angles(wrist(R_13, T_sd[:3, :3]))]
+                R_123 = rotations.rotz(-t1) @ rotations.roty(t2 + t3)
+                rows += [[t1, t2, t3, *w] for w in right.wrist_angles(wrist(R_123, T_sd[:3, :3]))]
     return np.array(rows)
 
 
@@ -163,7 +163,7 @@ def all_with_duplicates(T_sd, lengths, tool):
 
 def all_with_R_reversed(T_sd, lengths, tool):
     t1, r = _reach(T_sd, tool)
-    return _joined(T_sd, lengths, tool, [(t1, r), (t1 + np.pi, -r)], lambda R_13, R_sd: R_sd @ R_13.T)
+    return _joined(T_sd, lengths, tool, [(t1, r), (t1 + np.pi, -r)], lambda R_123, R_sd: R_sd @ R_123.T)
 
 
 # -- newton_step
