@@ -3,6 +3,8 @@
 import numpy as np
 
 FOV = 32.0  # vertical angle of view, degrees
+ASPECT = 1.25  # width by height of a picture; the page steps back where it is narrower
+
 STANDS = {
     "home": (-58, 17),
     "top": (-90, 89.9),
@@ -20,12 +22,16 @@ def views(low, high, size):
     [0.5, 0.5, 0.5]
     """
     center = (low + high) / 2
-    radius = max(np.linalg.norm(high - low) / 2, 0.46 * size)
-    distance = 0.88 * radius / np.sin(np.radians(FOV / 2))
+    corners = np.array(np.meshgrid(*np.stack([low, high], axis=1))).reshape(3, -1).T - center
+    tangent = np.tan(np.radians(FOV / 2))
     stands = {}
     for name, (azimuth, elevation) in STANDS.items():
         a, e = np.radians([azimuth, elevation])
         way = np.array([np.cos(a) * np.cos(e), np.sin(a) * np.cos(e), np.sin(e)])
+        right = np.array([-np.sin(a), np.cos(a), 0.0])
+        across, upwards = np.abs(corners @ right) / ASPECT, np.abs(corners @ np.cross(way, right))
+        near = np.max(corners @ way + np.maximum(across, upwards) / tangent)  # every corner is in the picture
+        distance = max(near, 0.4 * size / np.sin(np.radians(FOV / 2)))
         stands[name] = {"position": (center + distance * way).tolist(), "target": center.tolist()}
     return stands
 
@@ -40,6 +46,6 @@ def extent(robot, theta, painted, chain):
     stays_at_its_height = np.allclose(np.abs(robot.S[:3].T @ robot.S[:3, 0]), 1)  # all axes are parallel
     if not stays_at_its_height:
         shoulder = chain.joints[min(1, robot.n - 1)].enter
-        corners.append(shoulder + [0, 0, 0.4 * chain.size])
+        corners.append(shoulder + [0, 0, 0.36 * chain.size])
     margin = 0.06 * chain.size
     return np.min(corners, axis=0) - margin, np.max(corners, axis=0) + margin

@@ -76,7 +76,9 @@ def test_the_sources_first_pose():
     flipped = lie.log3(R.T @ rotations.from_zyx([0.9907, -0.7572, 0.5264]))
     assert np.degrees(np.linalg.norm(flipped)) == pytest.approx(139.7, abs=0.05)
     assert "139.7 deg" in printed("first-pose")
-    assert "(−.9907, .7572, −.5264), angle 1.1651 rad, quaternion (.8351, −.0431, .4289, −.3419)" in PROSE
+    assert (
+        "(−0.9907, 0.7572, −0.5264), angle 1.1651 rad, quaternion (0.8351, −0.0431, 0.4289, −0.3419)" in PROSE
+    )
 
 
 def test_the_printed_q2_is_wrong_and_the_repaired_one_right():

@@ -91,6 +91,7 @@ EXERCISES = [
             Hint("no_a1", "axis 1 is not above axis 2: the length a1 between them is missing"),
             Hint("no_a3", "the forearm is not straight: its offset a3 is missing"),
             Hint("lower", "that is the other solution, with the wrist lower"),
+            Hint("upwards", "a positive angle turns downwards here; you let it turn upwards"),
             Hint("sum", "this is theta2 + theta3, the angle of the forearm in the room"),
         ),
     ),

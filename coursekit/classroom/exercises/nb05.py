@@ -142,9 +142,10 @@ EXERCISES = [
             Hint("forward", "a one-sided difference is too coarse for this step: go both ways"),
             Hint("half", "twice too large: between the two poses lie two steps"),
             Hint(
-                "body",
-                "these rows are along the tool's axes: R_-^T R_+ turns in the tool, R_+ R_-^T in the base",
+                "turn_in_tool",
+                "your upper rows lie along the tool: R_-^T R_+ turns in the tool, R_+ R_-^T in the base",
             ),
+            Hint("body", "all your rows are along the tool's axes (J_b); they belong along the base"),
             Hint("space", "that v belongs to the point at the base origin (J_s), not to the tool"),
             Hint(
                 "euler", "differences of Euler angles are not an angular velocity: take the rotation between"

@@ -90,6 +90,11 @@ EXERCISES = [
             ),
             Hint("x_along", "x and y have changed places: x is the normal, y the direction of motion"),
             Hint("about_origin", "the normal is measured from the origin; the sphere has its own centre"),
+            Hint("no_last", "a pose is missing: the last point has one, too, with the step before it"),
+            Hint(
+                "last_copied",
+                "the last y is a copy: take the step before it again, but the normal at the last point",
+            ),
         ),
     ),
     Exercise(
@@ -128,6 +133,7 @@ EXERCISES = [
         unit="rad",
         hints=(
             Hint("signs_flipped", "every angle has the wrong sign: check which entry carries the minus"),
+            Hint("pitch_sign", "the pitch has the wrong sign: a positive turn about y lowers the x axis"),
             Hint("reversed", "the order here is (yaw, pitch, roll): yours begins with the turn about x"),
             Hint("arcsin", "an arcsin never leaves the right half of the circle; yaw and roll go all round"),
             Hint(

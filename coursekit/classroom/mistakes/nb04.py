@@ -31,6 +31,12 @@ def shoulder_of_the_flange(theta2, lengths):  # theta5 taken into account: TPK41
     return shoulder(theta2, a1, a2, a3, d4 + d6)
 
 
+def shoulder_turning_upwards(theta2, lengths):
+    _, _, a3, d4, _ = lengths
+    bend = right.shoulder_theta3(theta2, lengths) + theta2 - np.arctan2(a3, d4)
+    return -bend - np.arctan2(a3, d4) - theta2
+
+
 def shoulder_without_a1(theta2, lengths):
     _, a2, a3, d4, _ = lengths
     return shoulder(theta2, 0, a2, a3, d4)
@@ -70,6 +76,7 @@ WRONG = {
         "no_a1": shoulder_without_a1,
         "no_a3": shoulder_without_a3,
         "lower": lambda theta2, lengths: shoulder(theta2, *lengths[:4], higher=1),
+        "upwards": shoulder_turning_upwards,
         "sum": lambda theta2, lengths: theta2 + right.shoulder_theta3(theta2, lengths),
     },
     "rank": {

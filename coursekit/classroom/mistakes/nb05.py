@@ -93,6 +93,11 @@ def differences_in_body(fk, theta, step):
     return np.vstack([R.T @ J[:3], R.T @ J[3:]])
 
 
+def differences_turn_in_tool(fk, theta, step):
+    J = right.jacobian_by_differences(fk, theta, step)
+    return np.vstack([fk(theta)[:3, :3].T @ J[:3], J[3:]])
+
+
 def differences_in_space(fk, theta, step):
     J, p = right.jacobian_by_differences(fk, theta, step), fk(theta)[:3, 3]
     return np.vstack([J[:3], J[3:] - np.cross(J[:3].T, p).T])
@@ -196,6 +201,7 @@ WRONG = {
     "jacobian_by_differences": {
         "forward": differences_forward,
         "half": differences_by_one_step,
+        "turn_in_tool": differences_turn_in_tool,
         "body": differences_in_body,
         "space": differences_in_space,
         "euler": differences_of_euler_angles,

@@ -44,6 +44,17 @@ def frames_about_origin(points, centre):
     return right.tool_frames(points, np.zeros(3))
 
 
+def frames_without_last(points, centre):
+    return right.tool_frames(points, centre)[:-1]
+
+
+def frames_with_last_copied(points, centre):
+    T = right.tool_frames(points, centre)
+    T[-1, :3, 1] = T[-2, :3, 1]
+    T[-1, :3, 2] = np.cross(T[-1, :3, 0], T[-1, :3, 1])
+    return T
+
+
 # ---- quaternion
 
 
@@ -88,6 +99,10 @@ def quaternion_turned_back(R):
 
 def zyx_flipped(R):  # RPI mini project 3, its code
     return -right.zyx(R)
+
+
+def zyx_pitch_flipped(R):
+    return right.zyx(R) * [1, -1, 1]
 
 
 def zyx_reversed(R):
@@ -164,6 +179,8 @@ WRONG = {
         "y_not_perpendicular": frames_with_chord,
         "x_along": frames_swapped,
         "about_origin": frames_about_origin,
+        "no_last": frames_without_last,
+        "last_copied": frames_with_last_copied,
     },
     "quaternion": {
         "wrong_entries": quaternion_as_printed,
@@ -174,6 +191,7 @@ WRONG = {
     },
     "zyx": {
         "signs_flipped": zyx_flipped,
+        "pitch_sign": zyx_pitch_flipped,
         "reversed": zyx_reversed,
         "arcsin": zyx_by_arcsin,
         "xyz": zyx_of_the_other_product,

@@ -50,7 +50,7 @@ function buildSlider(model, el) {
     if (value !== min && value !== max && !limits.includes(value)) continue;
     const isLimit = limits.includes(value);
     if (!isLimit && limits.length) continue;
-    const mark = element("span", { class: isLimit ? "ck-mark ck-limit" : "ck-mark" }, trim(value, 0));
+    const mark = element("span", { class: isLimit ? "ck-mark ck-limit" : "ck-mark" }, trim(value, max - min < 10 ? 2 : 0));
     mark.style.left = `${at(value)}%`;
     if (isLimit) mark.title = "joint limit";
     if (![...ends.children].some((other) => other.style.left === mark.style.left)) ends.append(mark);

@@ -32,12 +32,15 @@ function makePlayer({ show, report, wake }) {
     count.textContent = `${k + 1} / ${motion.frames}`;
     show(k);
   };
-  const setPlaying = (on) => {
+  const mark = (on) => {
     playing = on;
-    last = null;
-    due = 0;
     play.textContent = on ? "pause" : "play";
     play.setAttribute("aria-label", on ? "pause the motion" : "play the motion");
+  };
+  const setPlaying = (on) => {
+    mark(on);
+    last = null;
+    due = 0;
     if (on) wake();
     else if (motion) report(frame);
   };
@@ -80,10 +83,10 @@ function makePlayer({ show, report, wake }) {
       loop.checked = !!motion.loop;
       go(at === null ? 0 : Math.max(0, Math.min(motion.frames - 1, at)));
       if (at === null && motion.autoplay) setPlaying(true);
-      else playing = false, (play.textContent = "play");
+      else mark(false);
     },
     pause() {
-      if (playing) { playing = false; play.textContent = "play"; }
+      if (playing) mark(false);
     },
     step,
     toggle: () => motion && play.click(),
