@@ -186,6 +186,7 @@ class Panel(ipywidgets.VBox):
         for key in [key for key, panel in _open.items() if panel is self]:
             del _open[key]
         _close_tree(self)
+        self.viewer.forget()  # the notebook's Out[...] keeps the panel itself
 
     # -- making it
 

@@ -151,6 +151,10 @@ class Viewer(anywidget.AnyWidget):
         with self.hold_sync():
             self.motion, self.motion_poses, self.motion_texts, self.frame = {}, b"", [], -1
 
+    def forget(self):
+        """Let go of what was drawn, once the viewer is closed."""
+        self._drawn, self._packed = {}, {}
+
     @functools.cached_property
     def meshcat(self):
         """A `meshcat.Visualizer` that draws into this viewer, for those who know meshcat."""

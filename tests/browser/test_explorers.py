@@ -78,6 +78,22 @@ class Explorer:
             found = self.notebook.transform(f"/ck/robot/{k + 1}")
             np.testing.assert_allclose(found, moved[k], rtol=0, atol=1e-9)
 
+    def pause_from(self, number):
+        """Press pause as soon as this pose of a motion is shown; the number of the pose where it rests."""
+        self.page.wait_for_function("() => parseInt(document.querySelector('.ck-count').textContent) > 0")
+        return self.page.evaluate(
+            """async (number) => {
+                 const shown = () => parseInt(document.querySelector(".ck-count").textContent);
+                 while (shown() < number) await new Promise(requestAnimationFrame);
+                 const button = document.querySelector(".ck-play");
+                 if (button.textContent === "pause") button.click(); // from outside it would come late
+                 const rests = shown();
+                 await new Promise((done) => setTimeout(done, 700));
+                 return button.textContent === "play" && shown() === rests ? rests : -1;
+               }""",
+            number,
+        )
+
     def played_to_the_end(self, poses):
         """Wait for the last pose of a motion that plays."""
         end = f"{poses} / {poses}"
@@ -125,9 +141,7 @@ def inverse(explorer):
     )
 
     explorer.press("show Newton's steps")
-    explorer.page.wait_for_function("() => parseInt(document.querySelector('.ck-count').textContent) >= 2")
-    explorer.press("pause the motion")
-    assert explorer.page.locator(".ck-play").inner_text() == "play"
+    assert explorer.pause_from(2) >= 2
     explorer.press("play the motion")
     steps = explorer.kernel("viewer.motion['frames']")
     explorer.played_to_the_end(steps)
@@ -173,20 +187,11 @@ def jacobians(explorer):
 
 
 def path(explorer):
-    places = """() => {
-        window.seen = [];
-        const { viewer, stage } = document.querySelector(".ck-viewer").coursekit;
-        const link = viewer.scene_tree.find(["ck", "robot", "6"]).object;
-        stage.afterFrame.push(() => seen.push(link.position.toArray().join()));
-    }"""
-    explorer.page.evaluate(places)
     explorer.page.get_by_label("playing speed").select_option("0.1")
     explorer.press("play the motion")
-    explorer.page.wait_for_function("() => parseInt(document.querySelector('.ck-count').textContent) >= 5")
-    explorer.press("pause the motion")
-    explorer.settle()
-    place = explorer.kernel("viewer.frame")
+    place = explorer.pause_from(5) - 1
     assert 4 <= place < 100
+    explorer.settle()
     theta = np.array(explorer.kernel("scene.theta('robot').tolist()"))
     explorer.assert_arm_stands_at(theta)
     assert f"point {place + 1} of 101" in explorer.page.locator(".ck-text").first.inner_text()

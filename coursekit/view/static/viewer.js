@@ -21,6 +21,7 @@ export default function () {
       for (const [key, data] of Object.entries(model.get("commands"))) commands.set(key, bytesOf(data));
       model.on("msg:custom", (content, buffers) => update(model, content, buffers));
       askForBundle(model);
+      return () => commands.clear();
     },
 
     async render({ model, el, signal }) {

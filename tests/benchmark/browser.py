@@ -1,0 +1,270 @@
+"""How fast an explorer follows its slider, how its motion plays, and what 200 runs of its cell leave behind.
+
+    python tests/benchmark/browser.py [--executions 200] [--moves 60]
+
+Starts a private JupyterLab and a headless Chromium (tests/requirements.txt) and prints one table. The times
+are those of this machine: beside them stand an empty round trip of the same kind of widget, and the same
+robot in meshcat's own server and page, measured in the same run. The test command does not read this file.
+"""
+
+import argparse
+import contextlib
+import os
+import platform
+import sys
+import tempfile
+import time
+from importlib.metadata import version
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+
+import numpy as np
+
+from coursekit import robots, view
+from tests.browser.lab import CHROMIUM_FLAGS, Lab, Notebook, chromium
+
+SIZE = {"width": 1280, "height": 900}
+SHOW = """\
+import time
+import numpy as np
+from coursekit import robots, view
+kr6 = robots.kuka_kr6()
+panel = view.explore(kr6)
+panel.viewer.quality = "{quality}"
+panel"""
+ECHO = '''\
+import anywidget, traitlets
+class Echo(anywidget.AnyWidget):
+    _esm = """export default { render({ model, el }) {
+        let done = null;
+        model.on("change:answer", () => done(performance.now()));
+        window.echo = (value) => new Promise((resolve) => {
+            done = resolve; model.set("question", value); model.save_changes(); });
+    } };"""
+    question = traitlets.Float().tag(sync=True)
+    answer = traitlets.Float().tag(sync=True)
+    @traitlets.observe("question")
+    def _reply(self, change):
+        self.answer = change.new
+Echo()'''
+# One key on a slider, until the pose is there and until it is drawn: [arrival, drawn] in ms.
+ONE_KEY = """async (key) => {
+    const range = document.querySelector(".ck-range");
+    const { stage } = document.querySelector(".ck-viewer").coursekit;
+    if (!stage.timed) {
+      stage.timed = {};
+      const moved = stage.moved;
+      stage.moved = () => { stage.timed.arrived ??= performance.now(); moved(); };
+      stage.afterFrame.push(() => stage.timed.arrived && stage.timed.drawn && stage.timed.drawn());
+    }
+    const begun = performance.now();
+    stage.timed.arrived = undefined;
+    const drawn = new Promise((resolve) => (stage.timed.drawn = resolve));
+    range.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+    await drawn;
+    return [stage.timed.arrived - begun, performance.now() - begun];
+}"""
+# The time of the first frame after a pose came (ONE_KEY has prepared the stage).
+DRAWN_AT = """() => {
+    window.drawnAt = 0;
+    const { stage } = document.querySelector(".ck-viewer").coursekit;
+    stage.timed.arrived = undefined;
+    stage.afterFrame.push(() => {
+      if (stage.timed.arrived) window.drawnAt = performance.timeOrigin + performance.now();
+      stage.timed.arrived = undefined;
+    });
+}"""
+# meshcat's own page: when it has drawn the last transform
+STOCK_DRAWN_AT = """() => {
+    window.drawnAt = 0;
+    const render = viewer.render;
+    viewer.render = function () {
+      render.call(viewer);
+      window.drawnAt = performance.timeOrigin + performance.now();
+    };
+}"""
+POSES_SEEN = """() => {
+    window.poses = new Set();
+    window.frames = 0;
+    const { stage, viewer } = document.querySelector(".ck-viewer").coursekit;
+    const link = viewer.scene_tree.find(["ck", "robot", "6"]).object;
+    stage.afterFrame.push(() => { poses.add(link.matrixWorld.elements.join()); frames += 1; });
+}"""
+
+
+class Raw:
+    """A scene's command as meshcat's window wants it."""
+
+    def __init__(self, command):
+        self.command = command
+
+    def lower(self):
+        return self.command
+
+
+def quantiles(times):
+    return f"{np.percentile(times, 50):8.1f} {np.percentile(times, 95):8.1f}"
+
+
+def slider_and_echo(notebook, moves):
+    """Rows of one key on a slider, and of an empty round trip, turn by turn."""
+    page, keys, echoes = notebook.page, [], []
+    for k in range(moves + 5):
+        keys.append(page.evaluate(ONE_KEY, "ArrowRight" if k % 2 else "ArrowLeft"))
+        page.wait_for_timeout(50)
+        echoes.append(
+            page.evaluate("async (k) => { const t = performance.now(); return (await echo(k + 1)) - t; }", k)
+        )
+        page.wait_for_timeout(50)
+    arrived, drawn = np.array(keys[5:]).T
+    yield "empty round trip of a widget", quantiles(echoes[5:])
+    yield "slider key -> pose is in the page", quantiles(arrived)
+    yield "slider key -> pose is drawn", quantiles(drawn)
+
+
+def from_kernel(notebook, moves):
+    """Times from six transforms in the kernel to the drawn frame, ms."""
+    notebook.page.evaluate(DRAWN_AT)
+    times = []
+    for k in range(moves + 5):
+        moved = f"kr6.displacements(kr6.home + {0.01 * (k % 2 + 1)})"
+        begun = notebook.kernel(f"(time.time(), panel.viewer.set_pose({moved}))[0]")
+        times.append(drawn_after(notebook.page, begun))
+    return times[5:]
+
+
+def stock(browser, moves, area):
+    """Times from six `set_transform` to the drawn frame with meshcat's own server and page, ms."""
+    import meshcat
+
+    with contextlib.redirect_stdout(None):  # it prints its address
+        server = meshcat.Visualizer()
+    try:
+        kr6 = robots.kuka_kr6()
+        scene = view.Scene()
+        scene.robot(kr6)
+        for command in scene.commands.values():
+            server.window.send(Raw(command))
+        page = browser.new_page(viewport=area)
+        page.goto(server.url())
+        page.wait_for_timeout(4000)
+        page.evaluate(STOCK_DRAWN_AT)
+        times = []
+        for k in range(moves + 5):
+            moved = kr6.displacements(kr6.home + 0.01 * (k % 2 + 1))
+            begun = time.time()
+            for i, T in enumerate(moved):
+                server[f"/ck/robot/{i + 1}"].set_transform(T)
+            times.append(drawn_after(page, begun))
+        page.close()
+        return times[5:]
+    finally:
+        server.window.server_proc.kill()
+        server.window.server_proc.wait()
+
+
+def drawn_after(page, begun):
+    """Milliseconds from `begun` (seconds since 1970) to the last frame of the pose set then."""
+    page.wait_for_function("t => window.drawnAt > t", arg=1000 * begun)
+    page.wait_for_timeout(120)
+    return page.evaluate("window.drawnAt") - 1000 * begun
+
+
+def motion(notebook, quality):
+    """One row: a motion of 101 poses at 30 frames a second."""
+    page = notebook.page
+    page.evaluate(POSES_SEEN)
+    notebook.kernel("panel.play_theta(np.linspace(kr6.home, kr6.home + 0.8, 101))")
+    page.wait_for_function(
+        "() => document.querySelector('.ck-count').textContent === '101 / 101'", timeout=60_000
+    )
+    page.wait_for_timeout(500)
+    last = np.array(notebook.transform("/ck/robot/6"))
+    kr6 = robots.kuka_kr6()
+    error = np.abs(last - kr6.displacements(kr6.home + 0.8)[-1]).max()
+    distinct = page.evaluate("poses.size")
+    return (
+        f"101 poses at 30 a second, quality {quality}",
+        f"{distinct:5d} distinct poses drawn; last pose off by {error:.0e}",
+    )
+
+
+def memory(notebook, executions):
+    """Rows of what the kernel and the page hold before and after running the cell again and again."""
+
+    def held():
+        session.send("HeapProfiler.collectGarbage")
+        heap = session.send("Runtime.getHeapUsage")["usedSize"] / 1e6
+        resident = notebook.kernel(
+            "(__import__('gc').collect(), __import__('psutil').Process().memory_info().rss / 1e6)[1]"
+        )
+        return resident, notebook.kernel("len(__import__('ipywidgets').widgets.widget._instances)"), heap
+
+    session = notebook.page.context.new_cdp_session(notebook.page)
+    run = """() => { const n = window.jupyterapp.shell.currentWidget.content; n.activeCellIndex = 0;
+                     return window.jupyterapp.commands.execute("notebook:run-cell"); }"""
+    for _ in range(5):  # what is kept for good is kept after the first few
+        notebook.page.evaluate(run)
+        notebook.idle()
+    before = held()
+    for _ in range(executions):
+        notebook.page.evaluate(run)
+        notebook.idle()
+    notebook.wait_view()
+    after = held()
+    for name, old, new in zip(
+        ("kernel memory [MB]", "live widget models", "page's heap [MB]"), before, after, strict=True
+    ):
+        yield f"{name}, {executions} runs of the cell", f"{old:8.0f} -> {new:.0f}"
+
+
+def show(name, value):
+    print(f"{name:<52} {value}", flush=True)
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    options.add_argument("--executions", type=int, default=200)
+    options.add_argument("--moves", type=int, default=60)
+    options = options.parse_args()
+    from playwright.sync_api import sync_playwright
+
+    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium(), args=list(CHROMIUM_FLAGS))
+        lab = Lab(Path(folder))
+        try:
+            names = ("jupyterlab", "ipywidgets", "anywidget", "meshcat", "numpy")
+            machine = f"Python {platform.python_version()}, {os.cpu_count()} cores, WebGL in software"
+            print(f"Chromium {browser.version}, {machine}")
+            print(", ".join(f"{name} {version(name)}" for name in names))
+            print(f"load when it began {os.getloadavg()[0]:.1f}\n")
+            show("milliseconds, KUKA KR6", f"{'p50':>8} {'p95':>8}")
+            for quality in ("auto", "low"):
+                notebook = Notebook(lab, browser.new_page(viewport=SIZE))
+                notebook.open(lab.write(f"{quality}.ipynb", SHOW.format(quality=quality), ECHO))
+                notebook.run_all()
+                notebook.wait_view()
+                if quality == "auto":
+                    for row in slider_and_echo(notebook, options.moves):
+                        show(*row)
+                    show(
+                        "this viewer: transforms set in the kernel -> drawn",
+                        quantiles(from_kernel(notebook, options.moves)),
+                    )
+                    area = notebook.page.locator(".ck-pane").bounding_box()
+                    area = {side: round(area[side]) for side in SIZE}
+                    others = stock(browser, options.moves, area)
+                    show("meshcat's own server: the same transforms -> drawn", quantiles(others))
+                show(*motion(notebook, quality))
+                if quality == "low" and options.executions:
+                    for row in memory(notebook, options.executions):
+                        show(*row)
+                notebook.page.close()
+        finally:
+            lab.close()
+            browser.close()
+
+
+if __name__ == "__main__":
+    main()
