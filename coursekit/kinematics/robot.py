@@ -9,7 +9,7 @@ import numpy as np
 
 from . import checks, dh, lie, screws
 
-CHUNK = 2048  # configurations per block: keeps the working set of a large batch in the cache
+CHUNK = 1024  # configurations per block: keeps the working set of a large batch in the cache
 
 
 @dataclass(frozen=True, eq=False)

@@ -176,7 +176,7 @@ class Panel(ipywidgets.VBox):
         return self.viewer.to_html()
 
     def __repr__(self):
-        return f"{self.title}: {self.scene.text()}"
+        return f"{self.title}: {'closed' if self.scene is None else self.scene.text()}"
 
     def _repr_mimebundle_(self, **_options):
         return mimebundle(self, repr(self), self.scene, self.viewer.height)
@@ -186,7 +186,11 @@ class Panel(ipywidgets.VBox):
         for key in [key for key, panel in _open.items() if panel is self]:
             del _open[key]
         _close_tree(self)
-        self.viewer.forget()  # the notebook's Out[...] keeps the panel itself
+        # The notebook's Out[...] keeps the panel for ever: what it drew must not stay with it.
+        self.viewer.forget()
+        self.scene, self.below, self._controls, self._stale = None, [], {}, []
+        self.children = ()
+        self._update = self._text = None
 
     # -- making it
 

@@ -153,7 +153,7 @@ class Viewer(anywidget.AnyWidget):
 
     def forget(self):
         """Let go of what was drawn, once the viewer is closed."""
-        self._drawn, self._packed = {}, {}
+        self.scene, self._drawn, self._packed = None, {}, {}
 
     @functools.cached_property
     def meshcat(self):
@@ -183,7 +183,7 @@ class Viewer(anywidget.AnyWidget):
         return standalone(self)
 
     def __repr__(self):
-        return f"Viewer({self.scene.text()})"
+        return f"Viewer({'closed' if self.scene is None else self.scene.text()})"
 
     def _repr_mimebundle_(self, **_options):
         return mimebundle(self, repr(self), self.scene, self.height)

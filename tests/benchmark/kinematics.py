@@ -3,7 +3,8 @@
     python tests/benchmark/kinematics.py          (with the packages of requirements.txt in this folder)
 
 Prints microseconds per configuration of a KUKA KR6 and, where a goal is set, the ratio to the peer. A
-ratio is taken inside this process, so it means the same on a slow machine. Peers that are not installed are left out.
+ratio is taken inside this process, so it means the same on a slow machine. Peers that are not installed are
+left out.
 Nothing in the test command reads this file.
 """
 
