@@ -138,6 +138,13 @@ class Notebook:
         self._ready()
         return self
 
+    def save(self):
+        """Save the notebook and wait until it is on the disk."""
+        self.command("docmanager:save")
+        saved = "() => !window.jupyterapp.shell.currentWidget.context.model.dirty"
+        self.page.wait_for_function(saved, timeout=30_000)
+        self.page.wait_for_timeout(1000)
+
     def reload(self):
         self.page.reload(wait_until="domcontentloaded")
         self._ready()
@@ -202,9 +209,9 @@ class Notebook:
             return v.length >= count && v.every((b) => b.coursekit.stage.frames > 0);
         }"""
         try:
-            self.page.wait_for_function(drawn, arg=count, timeout=30_000)
+            self.page.wait_for_function(drawn, arg=count, timeout=90_000)
         except Exception as error:
-            raise AssertionError(f"no 3D view after 30 s; {self.state()}") from error
+            raise AssertionError(f"no 3D view after 90 s; {self.state()}") from error
         self.rest()
 
     def state(self):

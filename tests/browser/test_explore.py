@@ -148,8 +148,8 @@ def test_a_second_view_and_a_reloaded_page_show_the_same_pose(notebook, lab):
         found = notebook.wait_transform(TOOL, expected, view)
         np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12)
 
-    notebook.command("docmanager:save")
-    notebook.page.wait_for_timeout(1000)
+    assert notebook.errors == []
+    notebook.save()
     notebook.reload()
     notebook.wait_view(2)
     for view in (0, 1):
@@ -161,7 +161,8 @@ def test_a_second_view_and_a_reloaded_page_show_the_same_pose(notebook, lab):
     for view in (0, 1):
         found = notebook.wait_transform(TOOL, expected, view)
         np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12)
-    assert notebook.errors == []
+    cut = ("WebSocket", "Failed to load resource")  # what a reload does to connections that are under way
+    assert not [error for error in notebook.errors if not any(word in error for word in cut)]
 
 
 def test_running_the_cell_ten_times_leaves_one_panel(explorer):
