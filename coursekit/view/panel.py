@@ -187,7 +187,8 @@ class Panel(ipywidgets.VBox):
             del _open[key]
         _close_tree(self)
         # The notebook's Out[...] keeps the panel for ever: what it drew must not stay with it.
-        self.viewer.forget()
+        if hasattr(self, "viewer"):  # a panel that was refused half-way has none
+            self.viewer.forget()
         self.scene, self.below, self._controls, self._stale = None, [], {}, []
         self.children = ()
         self._update = self._text = None
