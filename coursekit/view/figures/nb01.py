@@ -6,9 +6,8 @@ Every function shows one figure and returns None.
 import numpy as np
 
 from coursekit.kinematics import dh
-from coursekit.view.paint import PALETTE
+from coursekit.view.figures import INK, palette
 
-INK = "#2B3038"
 CROWD = 0.1  # m: frames nearer to each other than this are fanned out
 
 
@@ -19,7 +18,7 @@ def half_steps(a=0.5, alpha=0.9, d=0.4, theta=0.7):
     (ax,) = _axes_3d(1, (6.4, 4.6))
     for T, length in ((np.eye(4), 0.62), (last, 0.34)):  # the two joint axes
         ends = T[:3, 3] + np.outer([-0.5 * length, length], T[:3, 2])
-        ax.plot(*ends.T, ls=(0, (6, 3)), lw=1, color=_color("axis"))
+        ax.plot(*ends.T, ls=(0, (6, 3)), lw=1, color=palette("axis"))
     for T in (np.eye(4), first, last):
         _triad(ax, T, 0.16)
     for ends, name, color in (
@@ -27,9 +26,9 @@ def half_steps(a=0.5, alpha=0.9, d=0.4, theta=0.7):
         ([first[:3, 3], last[:3, 3]], "a", "accent"),
     ):
         ends = np.array(ends)
-        ax.plot(*ends.T, lw=2.5, color=_color(color), alpha=0.8)
+        ax.plot(*ends.T, lw=2.5, color=palette(color), alpha=0.8)
         ax.text(
-            *(ends.mean(axis=0) + [0.03, 0, 0.03]), name, fontsize=13, style="italic", color=_color(color)
+            *(ends.mean(axis=0) + [0.03, 0, 0.03]), name, fontsize=13, style="italic", color=palette(color)
         )
     _arc(ax, np.eye(4), 0, theta, 0.12, "θ", "trace")
     tilted = np.eye(4)
@@ -68,8 +67,8 @@ def near_parallel(tilt, d, change, marked):
     import matplotlib.pyplot as plt
 
     _, ax = plt.subplots(figsize=(6.4, 3.4), layout="constrained")
-    ax.loglog(tilt, np.abs(d), "-", color=_color("accent"), marker="o", ms=4, label="DH: |d| [m]")
-    ax.loglog(tilt, change, "--", color=_color("trace"), marker="s", ms=4, label="screw: |change of S|")
+    ax.loglog(tilt, np.abs(d), "-", color=palette("accent"), marker="o", ms=4, label="DH: |d| [m]")
+    ax.loglog(tilt, change, "--", color=palette("trace"), marker="s", ms=4, label="screw: |change of S|")
     ax.axvline(marked, color=INK, lw=0.8, ls=":")
     ax.set(xlabel="tilt of axis 3 [rad]", ylabel="size [m], [rad]")
     ax.grid(alpha=0.3)
@@ -84,10 +83,6 @@ def _show():
     import matplotlib.pyplot as plt
 
     plt.show()
-
-
-def _color(name):
-    return f"#{PALETTE[name]:06X}"
 
 
 def _axes_3d(count, size):
@@ -116,9 +111,9 @@ def _limits(ax, limits, ticks, unit):
 def _triad(ax, T, length):
     """One frame: three lines in the house colours, lettered."""
     for k, letter in enumerate("xyz"):
-        ax.plot(*np.array([T[:3, 3], _along(T, k, length)]).T, lw=2, color=_color(letter))
+        ax.plot(*np.array([T[:3, 3], _along(T, k, length)]).T, lw=2, color=palette(letter))
         ax.text(
-            *_along(T, k, 1.3 * length), letter, fontsize=8, color=_color(letter), ha="center", va="center"
+            *_along(T, k, 1.3 * length), letter, fontsize=8, color=palette(letter), ha="center", va="center"
         )
 
 
@@ -150,9 +145,9 @@ def _arc(ax, T, start, stop, radius, name, color):
     """An angle in the xy plane of frame T, from start to stop."""
     t = np.linspace(start, stop, 31)
     points = T[:3, 3] + radius * (np.outer(np.cos(t), T[:3, 0]) + np.outer(np.sin(t), T[:3, 1]))
-    ax.plot(*points.T, lw=1.8, color=_color(color))
+    ax.plot(*points.T, lw=1.8, color=palette(color))
     middle = T[:3, 3] + 1.4 * (points[15] - T[:3, 3])
-    ax.text(*middle, name, fontsize=12, color=_color(color), ha="center", va="center")
+    ax.text(*middle, name, fontsize=12, color=palette(color), ha="center", va="center")
 
 
 def _scene(ax, robot, theta, frames, names, fan):
@@ -162,7 +157,7 @@ def _scene(ax, robot, theta, frames, names, fan):
     ax.plot(*points.T, lw=8, color="#D5DAE1", solid_capstyle="round", solid_joinstyle="round")
     for T in links[:-1]:
         ends = T[:3, 3] + np.outer([-0.11, 0.11], T[:3, 2])
-        ax.plot(*ends.T, lw=1.2, ls=(0, (4, 2)), color=_color("axis"))
+        ax.plot(*ends.T, lw=1.2, ls=(0, (4, 2)), color=palette("axis"))
     shown, crowds = frames.copy(), []  # a crowd: [place of its first frame, how many stand there]
     for T, moved in zip(frames, shown, strict=True):
         crowd = next((c for c in crowds if np.linalg.norm(c[0] - T[:3, 3]) < CROWD), None)

@@ -5,9 +5,8 @@ Every function shows one figure and returns None.
 
 import numpy as np
 
-from coursekit.view.paint import PALETTE
+from coursekit.view.figures import INK, palette
 
-INK = "#2B3038"
 STYLES = (("accent", "o-"), ("trace", "s--"), ("body", "^-."), ("axis", "D:"))
 
 
@@ -23,10 +22,10 @@ def elbows(lengths, solutions):
         knee = elbow + a3 * np.array([np.sin(bent), np.cos(bent)])
         P = knee + d4 * np.array([np.cos(bent), -np.sin(bent)])
         arm = np.array([[0, 0], [0, d1], [a1, d1], elbow, knee, P])
-        ax.plot(*arm.T, style, lw=4, color=_color(color), solid_joinstyle="round")
-        ax.plot(*np.array([elbow, P]).T, ":", lw=1.2, color=_color(color))
-        ax.plot(*elbow, "o", ms=9, color=_color(color))
-        ax.text(elbow[0] + 25 * side, elbow[1], f"elbow {elbow[1]:.1f} mm", color=_color(color), va="center",
+        ax.plot(*arm.T, style, lw=4, color=palette(color), solid_joinstyle="round")
+        ax.plot(*np.array([elbow, P]).T, ":", lw=1.2, color=palette(color))
+        ax.plot(*elbow, "o", ms=9, color=palette(color))
+        ax.text(elbow[0] + 25 * side, elbow[1], f"elbow {elbow[1]:.1f} mm", color=palette(color), va="center",
                 ha="right" if side < 0 else "left")  # fmt: skip
     ax.plot([a1, P[0]], [d1, P[1]], "-.", lw=1, color=INK)
     ax.text((a1 + P[0]) / 2 + 12, (d1 + P[1]) / 2, "b", color=INK, fontsize=12, style="italic")
@@ -40,8 +39,8 @@ def error_along_path(error):
     """FK(IK) - T, the largest entry, for every pose (rows) and branch (columns)."""
     ax = _axes((6.4, 3.4))
     shown = np.maximum(error, 1e-17)
-    ax.semilogy(shown, ".", ms=4, color=_color("ghost"), alpha=0.5)
-    ax.semilogy(shown.max(axis=1), "-", lw=1.2, color=_color("accent"), label="largest of the eight")
+    ax.semilogy(shown, ".", ms=4, color=palette("ghost"), alpha=0.5)
+    ax.semilogy(shown.max(axis=1), "-", lw=1.2, color=palette("accent"), label="largest of the eight")
     ax.axhline(2e-15, ls="--", lw=1, color=INK, label="2e-15")
     ax.set(xlabel="pose on the S", ylabel="largest entry of FK(IK(T)) − T [m], [1]", ylim=(1e-17, 1e-14))
     ax.legend(frameon=False, loc="upper right")
@@ -52,7 +51,7 @@ def newton(runs):
     """Largest entry of FK - T_sd before each step. runs: label -> list of errors."""
     ax = _axes((6.4, 3.6))
     for (label, errors), (color, style) in zip(runs.items(), STYLES, strict=False):
-        ax.semilogy(np.maximum(errors, 1e-16), style, ms=5, color=_color(color), label=label)
+        ax.semilogy(np.maximum(errors, 1e-16), style, ms=5, color=palette(color), label=label)
     ax.set(xlabel="step", ylabel="largest entry of FK − T [m], [1]")
     ax.legend(frameon=False)
     _show()
@@ -61,8 +60,8 @@ def newton(runs):
 def rates(noise, nearest, converged):
     """Shares in percent over the noise of the guess."""
     ax = _axes((6.4, 3.4))
-    ax.semilogx(noise, nearest, "o-", color=_color("accent"), label="of these, at the nearest solution")
-    ax.semilogx(noise, converged, "s--", color=_color("trace"), label="converged")
+    ax.semilogx(noise, nearest, "o-", color=palette("accent"), label="of these, at the nearest solution")
+    ax.semilogx(noise, converged, "s--", color=palette("trace"), label="converged")
     ax.set(xlabel="noise of the guess [rad per joint]", ylabel="share [%]", ylim=(0, 105), xticks=noise)
     ax.set_xticks([], minor=True)
     ax.set_xticklabels([f"{x:g}" for x in noise])
@@ -73,8 +72,8 @@ def rates(noise, nearest, converged):
 def wandering(distance, closest):
     """Distance to a target out of reach before each step, and the nearest that can be reached."""
     ax = _axes((6.4, 3.4))
-    ax.plot(distance, "o-", ms=3, lw=1, color=_color("trace"), label="Newton")
-    ax.axhline(closest, ls="--", color=_color("accent"), label="closest pose found by going downhill")
+    ax.plot(distance, "o-", ms=3, lw=1, color=palette("trace"), label="Newton")
+    ax.axhline(closest, ls="--", color=palette("accent"), label="closest pose found by going downhill")
     ax.set(xlabel="step", ylabel="distance from the target [m]", ylim=(0, None))
     ax.legend(frameon=False)
     _show()
@@ -92,7 +91,3 @@ def _show():
     import matplotlib.pyplot as plt
 
     plt.show()
-
-
-def _color(name):
-    return f"#{PALETTE[name]:06X}"

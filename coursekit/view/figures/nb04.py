@@ -8,10 +8,9 @@ from functools import lru_cache
 import numpy as np
 
 from coursekit.kinematics import singularity
+from coursekit.view.figures import INK, palette
 from coursekit.view.figures.nb01 import _axes_3d, _limits
-from coursekit.view.paint import PALETTE
 
-INK = "#2B3038"
 STYLES = {"wrist": ":", "elbow": "--", "shoulder": "-"}
 CELLS = 81
 
@@ -76,12 +75,12 @@ def lost_lines(robot, poses):
         ax.plot(*points.T, lw=7, color="#D5DAE1", solid_capstyle="round", solid_joinstyle="round")
         for k, J in enumerate(robot.jacobian_space(theta).T):
             foot = np.cross(J[:3], J[3:]) + J[:3] * (J[:3] @ joints[k, :3, 3])
-            ax.plot(*(foot + np.outer([-0.4, 0.4], J[:3])).T, ls=(0, (4, 2)), lw=1.1, color=_color("axis"))
+            ax.plot(*(foot + np.outer([-0.4, 0.4], J[:3])).T, ls=(0, (4, 2)), lw=1.1, color=palette("axis"))
         pure = abs(wrench.pitch) < 1e-6
         between = (points[2] + points[5]) / 2  # shoulder and wrist
         middle = wrench.point + wrench.direction * (wrench.direction @ (between - wrench.point))
         ends = middle + np.outer([-0.7, 0.7], wrench.direction)
-        ax.plot(*ends.T, lw=2.4, ls="-" if pure else "-.", color=_color("accent"))
+        ax.plot(*ends.T, lw=2.4, ls="-" if pure else "-.", color=palette("accent"))
         _limits(ax, [(-0.5, 0.8), (-0.5, 0.6), (0.0, 1.1)], ticks=(-0.5, 0, 0.5, 1), unit="m")
         ax.set_title(f"{title}, pitch {abs(wrench.pitch):.3f} m", fontsize=10)
         ax.view_init(18, -38)
@@ -93,8 +92,8 @@ def two_smallest(angles, values):
     import matplotlib.pyplot as plt
 
     _, ax = plt.subplots(figsize=(6.4, 3.2), layout="constrained")
-    ax.plot(np.degrees(angles), values[:, 0], color=_color("trace"), label="second smallest")
-    ax.plot(np.degrees(angles), values[:, 1], "--", color=_color("accent"), label="smallest")
+    ax.plot(np.degrees(angles), values[:, 0], color=palette("trace"), label="second smallest")
+    ax.plot(np.degrees(angles), values[:, 1], "--", color=palette("accent"), label="smallest")
     ax.set(xlabel="θ4 [deg]", ylabel="singular value of J", xticks=range(-180, 181, 60))
     ax.grid(alpha=0.3)
     ax.legend(frameon=False)
@@ -107,13 +106,9 @@ def rates_near(eps, rates, limits):
 
     _, ax = plt.subplots(figsize=(6.4, 3.6), layout="constrained")
     for k, marker, color in ((1, "s", "z"), (2, "o", "accent"), (4, "^", "trace")):
-        ax.loglog(eps, np.abs(rates[:, k]), color=_color(color), marker=marker, ms=5, label=f"joint {k + 1}")
-        ax.axhline(limits[k], color=_color(color), lw=0.8, ls=":")
+        ax.loglog(eps, np.abs(rates[:, k]), color=palette(color), marker=marker, ms=5, label=f"joint {k + 1}")
+        ax.axhline(limits[k], color=palette(color), lw=0.8, ls=":")
     ax.set(xlabel="ε = θ3 − stretched angle [rad]", ylabel="joint rate [rad/s]")
     ax.grid(alpha=0.3)
     ax.legend(frameon=False)
     plt.show()
-
-
-def _color(name):
-    return f"#{PALETTE[name]:06X}"

@@ -6,7 +6,7 @@ Every function shows one figure and returns None.
 import numpy as np
 
 from coursekit.kinematics import jacobians
-from coursekit.view.paint import PALETTE
+from coursekit.view.figures import palette
 
 PARTS = {"linear": ("trace", "m/s"), "angular": ("accent", "rad/s")}
 LINES = (("o", "-", "accent"), ("s", "--", "trace"), ("^", "-.", "axis"), ("D", ":", "bone"))
@@ -20,7 +20,7 @@ def differences(step, central, forward):
     for error, name, (marker, line, color) in zip(
         (forward, central), ("forward", "central"), LINES, strict=False
     ):
-        ax.loglog(step, error, line, marker=marker, ms=4, color=_color(color), label=name)
+        ax.loglog(step, error, line, marker=marker, ms=4, color=palette(color), label=name)
     ax.set(xlabel="step [rad]", ylabel="largest error of J [1], [m]")
     ax.grid(alpha=0.3)
     ax.legend(frameon=False)
@@ -39,7 +39,7 @@ def ellipsoids(robot, **thetas):
         }
         room = 1.1 * max(e.lengths[0] for e in found.values())
         for ax, (name, e) in zip(row, found.items(), strict=True):
-            _ellipsoid(ax, e, _color(color))
+            _ellipsoid(ax, e, palette(color))
             _box(ax, room, unit)
             ax.set_title(f"{part}, {name}", fontsize=11, y=0.94)
     plt.show()
@@ -53,7 +53,7 @@ def steps(runs):
     for (name, history), (marker, line, color) in zip(runs.items(), LINES, strict=False):
         length = [step.step for step in history[1:]]
         ax.semilogy(
-            range(1, len(length) + 1), length, line, marker=marker, ms=4, color=_color(color), label=name
+            range(1, len(length) + 1), length, line, marker=marker, ms=4, color=palette(color), label=name
         )
     ax.set(xlabel="step", ylabel="length of the step [rad]", ylim=(1e-11, 30))
     ax.grid(alpha=0.3)
@@ -64,10 +64,6 @@ def steps(runs):
 # -- parts of the pictures -------------------------------------------------------------------------------
 
 
-def _color(name):
-    return f"#{PALETTE[name]:06X}"
-
-
 def _ellipsoid(ax, e, color):
     """Its surface, and its half axes as lines through the middle."""
     u, v = np.meshgrid(np.linspace(0, 2 * np.pi, 41), np.linspace(0, np.pi, 21))
@@ -76,7 +72,7 @@ def _ellipsoid(ax, e, color):
     ax.plot_surface(*surface, color=color, alpha=0.25, linewidth=0)
     ax.plot_wireframe(*surface, color=color, alpha=0.35, linewidth=0.5, rstride=5, cstride=5)
     for axis, length, line in zip(e.axes.T, e.lengths, ("-", "--", ":"), strict=True):
-        ax.plot(*np.outer(axis, [-length, length]), line, lw=2, color=_color("bone"))
+        ax.plot(*np.outer(axis, [-length, length]), line, lw=2, color=palette("bone"))
 
 
 def _box(ax, room, unit):

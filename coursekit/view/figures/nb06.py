@@ -6,7 +6,7 @@ Every function shows one figure and returns None. s is the distance along the pa
 import numpy as np
 
 from coursekit.kinematics import path
-from coursekit.view.paint import PALETTE
+from coursekit.view.figures import palette
 
 STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1, 1, 1)))
 
@@ -22,14 +22,14 @@ def on_sphere(points, T, every=10, center=path.SPHERE_CENTER, radius=path.SPHERE
     half = [np.outer(np.sin(v), np.cos(u)), np.outer(np.sin(v), np.sin(u)), np.outer(np.cos(v), np.ones(13))]
     half = [c + radius * h for c, h in zip(center, half, strict=True)]
     ax.plot_wireframe(*half, color="#D5DAE1", lw=0.6)
-    ax.plot(*points.T, color=_color("bone"), lw=1.5)
+    ax.plot(*points.T, color=palette("bone"), lw=1.5)
     for pose in T[::every]:
         for k, letter in enumerate("xyz"):
             ends = np.array([pose[:3, 3], pose[:3, 3] + 0.08 * pose[:3, k]])
-            ax.plot(*ends.T, color=_color(letter), lw=1.8)
+            ax.plot(*ends.T, color=palette(letter), lw=1.8)
     for k, letter in enumerate("xyz"):  # the letters once, at the first frame
         where = T[0, :3, 3] + 0.11 * T[0, :3, k]
-        ax.text(*where, letter, color=_color(letter), ha="center", va="center", fontsize=10)
+        ax.text(*where, letter, color=palette(letter), ha="center", va="center", fontsize=10)
     ax.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]", xticks=[0, 0.25, 0.5])
     ax.set(yticks=[-0.5, 0, 0.5], zticks=[0, 0.5, 1])
     ax.set_aspect("equal")
@@ -61,12 +61,12 @@ def wrapped_and_continuous(s, wrapped, continuous, joint):
     _, axes = plt.subplots(1, 2, figsize=(7.4, 2.8), layout="constrained", sharey=True)
     jump = np.abs(np.diff(wrapped)) > np.pi
     for ax, q, title in ((axes[0], wrapped, "within half a turn"), (axes[1], continuous, "continuous")):
-        ax.plot(s, q, "o-", ms=2.5, lw=1, color=_color("trace"))
+        ax.plot(s, q, "o-", ms=2.5, lw=1, color=palette("trace"))
         for height in (-np.pi, np.pi):
-            ax.axhline(height, color=_color("bone"), ls=":", lw=1)
+            ax.axhline(height, color=palette("bone"), ls=":", lw=1)
         ax.set(title=title, xlabel="distance along the path [m]")
     for i in np.flatnonzero(jump):
-        axes[0].plot(s[i : i + 2], wrapped[i : i + 2], color=_color("accent"), lw=2.2)
+        axes[0].plot(s[i : i + 2], wrapped[i : i + 2], color=palette("accent"), lw=2.2)
     axes[0].set(ylabel=f"joint {joint} [rad]")
     axes[0].text(0.02, np.pi + 0.1, "π", transform=axes[0].get_yaxis_transform())
     plt.show()
@@ -86,18 +86,14 @@ def rates(points, rate, bounds):
         worst = np.argwhere(use > use.max() - 1e-6)[0]  # the first, where a symmetric path has two
         limit = np.broadcast_to(bound, turned.shape[1:])[worst[1]]
         for height in (-limit, limit):
-            ax.axhline(height, color=_color("accent"), ls=":", lw=1.4)
-        ax.plot(middle[worst[0]], turned[*worst], "o", ms=8, mfc="none", color=_color("accent"))
+            ax.axhline(height, color=palette("accent"), ls=":", lw=1.4)
+        ax.plot(middle[worst[0]], turned[*worst], "o", ms=8, mfc="none", color=palette("accent"))
         ax.set(title=title, xlabel="distance along the path [m]", ylabel="joint rate [rad/s]")
     axes[0, 0].legend(frameon=False, fontsize=7, ncols=2, loc="lower left", bbox_to_anchor=(0, 0.06))
     plt.show()
 
 
 # -- parts of the pictures -------------------------------------------------------------------------------
-
-
-def _color(name):
-    return f"#{PALETTE[name]:06X}"
 
 
 def _lines(ax, s, values, names):
