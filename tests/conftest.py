@@ -6,6 +6,8 @@ import os
 import tempfile
 from pathlib import Path
 
+import pytest
+
 # Several pytest workers and kernels share the machine; numpy reads these when it is first imported.
 for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"
@@ -22,6 +24,19 @@ for variable, path in private_folders(PRIVATE).items():
 
 # Notebooks among the tests are material (releases, submissions), not lessons to be run.
 collect_ignore_glob = ["*.ipynb"]
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """The tests of a file stay together, and so do all that drive a browser: two cores bear one of these."""
+    from xdist.scheduler import LoadFileScheduling
+
+    class Together(LoadFileScheduling):
+        def _split_scope(self, nodeid):
+            file = super()._split_scope(nodeid)
+            return "tests/browser" if file.startswith("tests/browser/") else file
+
+    return Together(config, log)
 
 
 def pytest_unconfigure():
