@@ -11,6 +11,23 @@ imported when it is first used, so that `import coursekit` costs little more tha
 """
 
 import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:  # for editors and mypy; at run time `__getattr__` imports what is asked for
+    from . import classroom as classroom
+    from . import view as view
+    from .classroom import check as check
+    from .kinematics import dh as dh
+    from .kinematics import ik as ik
+    from .kinematics import jacobians as jacobians
+    from .kinematics import lie as lie
+    from .kinematics import path as path
+    from .kinematics import robots as robots
+    from .kinematics import rotations as rotations
+    from .kinematics import singularity as singularity
+    from .kinematics import subproblems as subproblems
+    from .kinematics import symbolic as symbolic
+    from .kinematics.robot import Robot as Robot
 
 __version__ = "1.0.0"
 
@@ -38,7 +55,7 @@ _NAMES = {"Robot": "coursekit.kinematics.robot", "check": "coursekit.classroom"}
 __all__ = sorted([*_WHERE, *_NAMES])
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> Any:
     if name in _WHERE:
         return importlib.import_module(_WHERE[name])
     if name in _NAMES:
@@ -46,5 +63,5 @@ def __getattr__(name):
     raise AttributeError(f"coursekit has no {name!r}; it has: {', '.join(__all__)}")
 
 
-def __dir__():
+def __dir__() -> list[str]:
     return [*__all__, "__version__"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 
@@ -29,7 +30,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
-    def command(name, run, text):
+    def command(name: str, run: Callable, text: str) -> argparse.ArgumentParser:
         one = commands.add_parser(name, help=text, description=text)
         one.set_defaults(run=run)
         return one
@@ -62,26 +63,26 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _lab(options, rest):
+def _lab(options: argparse.Namespace, rest: list[str]) -> None:
     from .classroom import lab
 
     lab.start(rest)
 
 
-def _study(options, rest):
+def _study(options: argparse.Namespace, rest: list[str]) -> None:
     from .classroom import study
 
     study.start(rest)
 
 
-def _release(options, rest):
+def _release(options: argparse.Namespace, rest: list[str]) -> None:
     from .classroom import release
 
     release.release(options.out)
     print(f"wrote {options.out}: hand it out as it is")
 
 
-def _grade(options, rest):
+def _grade(options: argparse.Namespace, rest: list[str]) -> None:
     from .classroom import grade
 
     summary = grade.grade_class(
@@ -90,20 +91,20 @@ def _grade(options, rest):
     print(summary)
 
 
-def _export(options, rest):
+def _export(options: argparse.Namespace, rest: list[str]) -> None:
     from .classroom import nbgrader
 
     nbgrader.export(options.out)
     print(f"wrote {options.out}\n{nbgrader.WARNING}")
 
 
-def _samples(options, rest):
+def _samples(options: argparse.Namespace, rest: list[str]) -> None:
     from .classroom import tables
 
     print("wrote the tables of " + ", ".join(tables.write_samples()))
 
 
-def _execute(options, rest):
+def _execute(options: argparse.Namespace, rest: list[str]) -> None:
     from .classroom import notebook
 
     for path in options.notebooks:

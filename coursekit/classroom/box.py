@@ -60,7 +60,7 @@ def bubblewrap() -> str | None:
 class Box:
     """One kernel. `await start()`, `await run(...)`, `await stop()`, and nothing of it remains."""
 
-    def __init__(self, library: Path, limits: Limits, program: str | None):
+    def __init__(self, library: Path, limits: Limits, program: str | None) -> None:
         self.limits = limits
         self.folder = tempfile.mkdtemp(prefix="box")
         self.manager = AsyncKernelManager(transport="ipc", connection_file=f"{self.folder}/kernel.json")
@@ -84,28 +84,31 @@ class Box:
         context.sockopts[zmq.LINGER] = 0
         self.client = AsyncKernelClient(**self.manager.get_connection_info(session=True), context=context)
         self.client.start_channels(iopub=False, stdin=False, hb=False)
-        await self._reply(self.client.kernel_info(), self.limits.start)
+        await self._reply(self.client, self.client.kernel_info(), self.limits.start)
 
     async def run(self, code: str, seconds: float, expression: str = "None") -> dict:
         """Execute code, then evaluate an expression; the content of the reply. Whatever it says is untrusted.
 
         Code that takes too long is interrupted ("interrupted" is then True); KernelLost if it goes on.
         """
-        request = self.client.execute(code, allow_stdin=False, user_expressions={"value": expression})
+        client = self.client
+        if client is None:
+            raise KernelLost("the kernel was not started")
+        request = client.execute(code, allow_stdin=False, user_expressions={"value": expression})
         try:
-            return await self._reply(request, seconds)
+            return await self._reply(client, request, seconds)
         except TimeoutError:
             await self.manager.interrupt_kernel()
         try:
-            return {**await self._reply(request, 2), "interrupted": True}
+            return {**await self._reply(client, request, 2), "interrupted": True}
         except TimeoutError:
             raise KernelLost(f"took more than {seconds:g} s") from None
 
-    async def _reply(self, request: str, seconds: float) -> dict:
+    async def _reply(self, client: AsyncKernelClient, request: str, seconds: float) -> dict:
         end = time.monotonic() + seconds
         while (left := end - time.monotonic()) > 0:
             try:
-                message = await self.client.get_shell_msg(timeout=min(left, 0.3))
+                message = await client.get_shell_msg(timeout=min(left, 0.3))
             except queue.Empty:
                 if not await self.manager.is_alive():
                     raise KernelLost("the kernel died") from None

@@ -12,6 +12,7 @@ import linecache
 import os
 import sys
 import traceback
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 
@@ -41,7 +42,7 @@ class Verdict:
         return self.outcome == "right"
 
 
-def check(name: str, function) -> None:
+def check(name: str, function: Callable) -> None:
     """Say whether a function you wrote is right and, if not, what kind of mistake it makes.
 
     Parameters
@@ -59,7 +60,7 @@ def check(name: str, function) -> None:
         raise CheckFailed(f"{name}: {verdict.text}")
 
 
-def demand(name: str, function, table: str) -> None:
+def demand(name: str, function: Callable, table: str) -> None:
     """For graders that wait for an exception: CheckFailed unless the function is right on this table."""
     unit, exercise = _ours().find(name)
     verdict = judge(exercise, function, json.loads(table), _ours().allowed(unit))
@@ -72,13 +73,15 @@ def _ours() -> Course:
     return the_course()
 
 
-def judge(exercise: Exercise, function, table: list[dict], allowed: tuple[str, ...] = ()) -> Verdict:
+def judge(
+    exercise: Exercise, function: Callable, table: list[dict], allowed: tuple[str, ...] = ()
+) -> Verdict:
     """The verdict on a function, from a sample table."""
     if not callable(function):
         return Verdict("misfit", f'pass the function itself: check("{exercise.name}", {exercise.name})')
     if not table:
         return Verdict("error", "there are no examples of it (instructors: run `coursekit samples`)")
-    answers = []
+    answers: list[list[np.ndarray]] = []
     for row in table:
         arguments = row["args"]
         try:
@@ -142,7 +145,9 @@ def salt(exercise: Exercise, k: int, part: int) -> str:
 # ---- laws, and mistakes that anybody makes anywhere
 
 
-def broken_law(exercise: Exercise, function, arguments: list, parts: list[np.ndarray]) -> str:
+def broken_law(
+    exercise: Exercise, function: Callable | None, arguments: list, parts: list[np.ndarray]
+) -> str:
     """'' or the text of the first law that does not hold."""
     if misshapen(exercise, parts):
         return ""

@@ -31,6 +31,13 @@ class Course:
         """The unit's notebook, None if it does not exist (yet)."""
         return next(iter(sorted(self.notebooks.glob(f"{unit[2:]}_*.ipynb"))), None)
 
+    def solved_notebook(self, unit: str) -> Path:
+        """The unit's notebook; ValueError if it does not exist."""
+        path = self.notebook(unit)
+        if path is None:
+            raise ValueError(f"no solved notebook of {unit} in {self.notebooks}")
+        return path
+
     def exercises(self, unit: str) -> list[Exercise]:
         return list(getattr(_module(self.classroom / "exercises" / f"{unit}.py"), "EXERCISES", ()))
 
@@ -67,6 +74,8 @@ def the_course() -> Course:
 def _module(path: Path) -> ModuleType:
     """A module by its path: courses other than ours (in tests, say) need not be importable packages."""
     spec = importlib.util.spec_from_file_location(f"coursekit.classroom.{path.parent.name}.{path.stem}", path)
+    if spec is None or spec.loader is None:
+        raise ImportError(f"{path} is no Python module")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module

@@ -7,8 +7,9 @@ solved notebook alone, functions that commit its typical mistakes in `mistakes/`
 from __future__ import annotations
 
 import difflib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -86,7 +87,7 @@ class Exercise:
         return [plain(x) for x in self.draw(rng)]
 
 
-def plain(value):
+def plain(value: Any) -> Any:
     """Numpy to JSON data; the inverse is `thaw`."""
     if isinstance(value, np.ndarray | np.generic):
         return value.tolist()
@@ -117,7 +118,7 @@ class Misfit(Exception):
     """The value can not be an answer to this exercise; the text says why."""
 
 
-def answer(exercise: Exercise, value) -> list[np.ndarray]:
+def answer(exercise: Exercise, value: object) -> list[np.ndarray]:
     """The returned value as float arrays, one for each returned thing; Misfit if it is none."""
     if value is None:
         raise Misfit("the function returns None: is there a `return` at its end?")
@@ -156,7 +157,7 @@ def _show_shape(shape: tuple) -> str:
     return str(shape).replace("None", "any number")
 
 
-def nearest(name: str, names) -> str:
+def nearest(name: str, names: Iterable[str]) -> str:
     """' Did you mean ...?' or ''."""
     found = difflib.get_close_matches(name, names, 1)
     return f" Did you mean {found[0]!r}?" if found else ""

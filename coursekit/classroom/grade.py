@@ -72,7 +72,9 @@ def grade_class(
         journal = Journal(out / "journal.jsonl", {"seed": seed, "box": box})
         stack.enter_context(contextlib.closing(journal))
         copies = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="submissions")))
-        handed_in = Submissions(submissions, copies, {unit: course.notebook(unit).name for unit in units})
+        handed_in = Submissions(
+            submissions, copies, {unit: course.solved_notebook(unit).name for unit in units}
+        )
         ahead = 2 * jobs + 2
         _canaries(run_all(executor, make.canaries(), ahead))
         everything = [(student, unit) for student in handed_in.students for unit in units]
@@ -88,7 +90,7 @@ def grade_class(
 class Jobs:
     """Jobs are plain data: all a worker needs beside an installed coursekit, on this machine or another."""
 
-    def __init__(self, course: Course, units: list[str], *, seed: int, box: bool, limits: Limits):
+    def __init__(self, course: Course, units: list[str], *, seed: int, box: bool, limits: Limits) -> None:
         place = None if course == the_course() else [str(course.notebooks), str(course.classroom)]
         self._common = {"course": place, "seed": seed, "box": box, "limits": asdict(limits)}
         self._course, self._units = course, units
@@ -100,7 +102,7 @@ class Jobs:
     def canaries(self) -> Iterator[dict]:
         """The solved notebooks and the untouched ones, graded as if they were handed in."""
         for unit in self._units:
-            solved = notebook.read(self._course.notebook(unit))
+            solved = notebook.read(self._course.solved_notebook(unit))
             for student, document in (("solved", solved), ("untouched", notebook.student_version(solved))):
                 yield self._job(student, unit, json.dumps(document).encode(), "")
 
@@ -110,7 +112,7 @@ class Jobs:
             "library": self._libraries[unit],
             "student": student,
             "unit": unit,
-            "name": self._course.notebook(unit).name,
+            "name": self._course.solved_notebook(unit).name,
             "notebook": None if data is None else base64.b64encode(data).decode(),
             "digest": digest(data),
             "note": note,

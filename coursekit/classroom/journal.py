@@ -13,7 +13,7 @@ class Journal:
     Its first line says which run it belongs to (seed, box); ValueError if that is another one.
     """
 
-    def __init__(self, path: Path, run: dict):
+    def __init__(self, path: Path, run: dict) -> None:
         self._file = open(path, "a+b")  # noqa: SIM115 - close() closes it
         self._where: dict[tuple[str, str], tuple[int, str | None]] = {}
         self._file.seek(0)

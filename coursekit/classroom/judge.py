@@ -7,6 +7,7 @@ import contextlib
 import json
 import math
 import re
+from collections.abc import Callable
 
 import numpy as np
 
@@ -71,7 +72,7 @@ def clean(text: str) -> str:
     return "".join(c if c.isprintable() else " " for c in text)[:240]
 
 
-def judge(exercise: Exercise, inputs: list, answers: list, right, wrong: dict) -> str:
+def judge(exercise: Exercise, inputs: list, answers: list, right: Callable, wrong: dict) -> str:
     """'' if all answers are right, else what is wrong with them, without a number of either."""
     for one in answers:
         if isinstance(one, str):

@@ -10,12 +10,13 @@ Settings, kernels' connection files, IPython's history, matplotlib's font cache 
 
 import os
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 COURSE = Path(__file__).resolve().parents[2]
 
 
-def private_folders(folder):
+def private_folders(folder: str | Path) -> dict[str, str]:
     """The environment variables that make Jupyter, IPython and matplotlib write into one folder only.
 
     Parameters
@@ -46,7 +47,9 @@ def private_folders(folder):
     }
 
 
-def start(arguments=(), notebooks=None, folder=None):
+def start(
+    arguments: Sequence[str] = (), notebooks: str | Path | None = None, folder: str | Path | None = None
+) -> None:
     """Open the course in JupyterLab; returns when the server is stopped.
 
     Parameters

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from types import FrameType
+
 LIBRARY = "coursekit.kinematics."
 GENERATED = "<string>"  # where the __init__ of a dataclass says it stands
 
 
-def library_call(frame) -> str:
+def library_call(frame: FrameType) -> str:
     """ "lie.exp6" if this frame is coursekit.kinematics called from outside coursekit, else ''."""
     module, code = frame.f_globals.get("__name__", ""), frame.f_code
     if not module.startswith(LIBRARY) or code.co_name.startswith("<") or code.co_filename == GENERATED:

@@ -52,7 +52,7 @@ def export(out: Path, course: Course | None = None, seed: int = 0) -> None:
 
 
 def _with_hidden_tests(course: Course, unit: str, seed: int) -> dict:
-    document = notebook.read(course.notebook(unit))
+    document = notebook.read(course.solved_notebook(unit))
     exercises = {e.name: e for e in course.exercises(unit)}
     document["cells"] = [cell for cell in document["cells"] if "instructor" not in notebook.tags(cell)]
     for cell in document["cells"]:

@@ -23,7 +23,7 @@ HEAD = "".join(f"<th scope='col'>{word}</th>" for word in ("exercise", "points",
 class Gradebook:
     """grades.csv, row by row: student, total, points of each unit, notes, and how the code was boxed."""
 
-    def __init__(self, path: Path, units: list[str], boxed: bool):
+    def __init__(self, path: Path, units: list[str], boxed: bool) -> None:
         self._file = path.open("w", newline="", encoding="utf-8", errors="replace")
         self._writer = csv.writer(self._file)
         self._units = units
@@ -34,7 +34,8 @@ class Gradebook:
         """results: {unit: record of the journal}. What could not be graded is left empty, and is not a 0."""
         points = {u: total(r, "points") for u, r in results.items()}
         of = sum(total(r, "of") or 0 for r in results.values())
-        whole = None if None in points.values() else sum(points.values())
+        known = [p for p in points.values() if p is not None]
+        whole = sum(known) if len(known) == len(points) else None
         notes = [f"{unit}: {note}" for unit in self._units for note in results[unit]["notes"]]
         notes += [
             f"{unit} {name}: {row['text']}"

@@ -67,7 +67,7 @@ class Student:
 
     def __init__(
         self, sources: list[str], library: Path, limits: Limits, program: str | None, exercises: int
-    ):
+    ) -> None:
         self.sources, self.library, self.limits, self.program = sources, library, limits, program
         self.left = exercises + 2  # kernels
         self.end = time.monotonic() + limits.submission
@@ -115,17 +115,17 @@ class Student:
             harm = self.deadly.get(number, 0)
             try:
                 if harm < 2:
-                    await self._run_cell(cells.definitions(source, 0) if harm else source, seconds)
+                    await self._run_cell(self.box, cells.definitions(source, 0) if harm else source, seconds)
             except KernelLost:
                 self.deadly[number] = harm + 1
                 await self.stop()
                 return  # the caller tries again
 
-    async def _run_cell(self, source: str, seconds: float) -> None:
+    async def _run_cell(self, box: Box, source: str, seconds: float) -> None:
         """After an error, definitions further down still run: demonstrations fail without the library."""
         line = 0
-        while (await self.box.run(source, seconds)).get("status") == "error":
-            failed = _number(expression(await self.box.run("", 2, cells.FAILED_LINE)))
+        while (await box.run(source, seconds)).get("status") == "error":
+            failed = _number(expression(await box.run("", 2, cells.FAILED_LINE)))
             if failed <= line:
                 return
             line = failed

@@ -16,7 +16,7 @@ class Submissions:
     names : {unit: name of its notebook}
     """
 
-    def __init__(self, folder: Path, copies: Path, names: dict[str, str]):
+    def __init__(self, folder: Path, copies: Path, names: dict[str, str]) -> None:
         self._copies = copies
         self._numbers: dict[str, int] = {}  # a student's name need not be fit for a path
         self._notes: dict[tuple[str, str], str] = {}

@@ -56,7 +56,7 @@ def rows(course: Course, unit: str, exercise: Exercise, count: int, rng: np.rand
     """The examples of one exercise."""
     right = getattr(solutions(course, unit), exercise.name, None)
     if right is None:
-        raise ValueError(f"{course.notebook(unit).name} holds no solution of {exercise.name}")
+        raise ValueError(f"{course.solved_notebook(unit).name} holds no solution of {exercise.name}")
     wrong = course.wrong(unit).get(exercise.name, {})
     return [_row(exercise, k, rng, right, wrong) for k in range(count)]
 
@@ -85,7 +85,4 @@ def _row(exercise: Exercise, k: int, rng, right, wrong: dict) -> dict:
 @cache
 def solutions(course: Course, unit: str) -> SimpleNamespace:
     """The functions of the unit's solved notebook."""
-    path = course.notebook(unit)
-    if path is None:
-        raise ValueError(f"no solved notebook of {unit} in {course.notebooks}")
-    return notebook.references(path)
+    return notebook.references(course.solved_notebook(unit))

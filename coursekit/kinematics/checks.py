@@ -1,11 +1,17 @@
 """What a function may be given: every error here says what was expected, what came, and for whom."""
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import ArrayLike
+
+# The default of a dataclass field that __post_init__ fills: None at first, then what the field's type says.
+NOT_GIVEN: Any = None
 
 POSE_TOLERANCE = 1e-6  # how far from a rotation the upper left block of a pose may be (R'R - I, max abs)
 
 
-def array(value, shape, name):
+def array(value: ArrayLike, shape: tuple[int, ...], name: str) -> np.ndarray:
     """`value` as a float array whose last axes are `shape`; a ValueError says what came instead.
 
     shape: tuple of ints, the trailing axes; leading (batch) axes are free.
@@ -23,7 +29,7 @@ def array(value, shape, name):
     return result
 
 
-def joint_angles(theta, n, robot_name):
+def joint_angles(theta: ArrayLike, n: int, robot_name: str) -> np.ndarray:
     """theta as a float array (..., n), or a ValueError that names the robot."""
     try:
         result = np.asarray(theta, dtype=float)
@@ -34,7 +40,7 @@ def joint_angles(theta, n, robot_name):
     return result
 
 
-def pose(T, name):
+def pose(T: ArrayLike, name: str) -> np.ndarray:
     """T as a float array (..., 4, 4) in SE(3); a ValueError says which condition fails.
 
     NaN passes (it is data that is missing, not an error): whatever is computed from it is NaN.
@@ -57,7 +63,7 @@ def pose(T, name):
     return T
 
 
-def rotation(R, name):
+def rotation(R: ArrayLike, name: str) -> np.ndarray:
     """R as a float array (..., 3, 3) in SO(3); a ValueError says which condition fails. NaN passes."""
     R = array(R, (3, 3), name)
     T = np.zeros((*R.shape[:-2], 4, 4))
@@ -69,7 +75,7 @@ def rotation(R, name):
     return R
 
 
-def frozen(value, name, shape=None):
+def frozen(value: ArrayLike, name: str, shape: tuple[int, ...] | None = None) -> np.ndarray:
     """A read-only float copy of `value`, of exactly `shape` (None leaves the shape free)."""
     result = np.array(value, dtype=float) if shape is None else np.array(array(value, shape, name))
     if shape is not None and result.shape != shape:

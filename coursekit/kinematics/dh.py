@@ -9,9 +9,14 @@ A modified row i therefore holds the a and alpha of row i - 1 of the standard ta
 row down. Sources: Siciliano et al. (2010), eqs. 2.51-2.52; Lynch & Park (2017), appendix C.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import checks, lie
 
@@ -42,14 +47,28 @@ class Table:
     [0.5, 0.25]
     """
 
-    a: np.ndarray = None
-    alpha: np.ndarray = None
-    d: np.ndarray = None
-    theta: np.ndarray = None
+    a: np.ndarray = checks.NOT_GIVEN
+    alpha: np.ndarray = checks.NOT_GIVEN
+    d: np.ndarray = checks.NOT_GIVEN
+    theta: np.ndarray = checks.NOT_GIVEN
     convention: str = "standard"
-    joint_types: tuple = None
-    base: np.ndarray = None
-    tool: np.ndarray = None
+    joint_types: tuple[str, ...] = checks.NOT_GIVEN
+    base: np.ndarray = checks.NOT_GIVEN
+    tool: np.ndarray = checks.NOT_GIVEN
+
+    if TYPE_CHECKING:  # what the constructor takes; fields say what __post_init__ makes of it
+
+        def __init__(
+            self,
+            a: ArrayLike,
+            alpha: ArrayLike,
+            d: ArrayLike,
+            theta: ArrayLike,
+            convention: str = "standard",
+            joint_types: Iterable[str] | None = None,
+            base: ArrayLike | None = None,
+            tool: ArrayLike | None = None,
+        ) -> None: ...
 
     def __post_init__(self):
         columns = {name: getattr(self, name) for name in ("a", "alpha", "d", "theta")}
@@ -74,11 +93,11 @@ class Table:
             object.__setattr__(self, name, checks.frozen(value, name, (4, 4)))
 
     @property
-    def n(self):
+    def n(self) -> int:
         """Number of joints."""
         return len(self.a)
 
-    def link_transforms(self, q):
+    def link_transforms(self, q: ArrayLike) -> np.ndarray:
         """A_1 ... A_n. q (..., n) rad or m -> (..., n, 4, 4), pose of frame i in frame i - 1.
 
         Standard: eq. 2.52 of Siciliano et al.; modified: appendix C of Lynch & Park.
@@ -90,7 +109,7 @@ class Table:
         along_z, along_x = _screw_z(theta, d), _screw_x(self.alpha, self.a)
         return along_z @ along_x if self.convention == "standard" else along_x @ along_z
 
-    def fk(self, q):
+    def fk(self, q: ArrayLike) -> np.ndarray:
         """Tool pose in the space frame. q (..., n) -> T (..., 4, 4). Eq. 2.5 of the TPK4170 report."""
         A = self.link_transforms(q)
         T = self.base
@@ -98,7 +117,7 @@ class Table:
             T = T @ A[..., i, :, :]
         return T @ self.tool
 
-    def frames(self, q):
+    def frames(self, q: ArrayLike) -> np.ndarray:
         """The DH frames themselves: base A_1 ... A_i. q (..., n) -> (..., n, 4, 4), in the space frame."""
         A = self.link_transforms(q)
         frames, T = np.empty_like(A), self.base
@@ -106,7 +125,7 @@ class Table:
             T = frames[..., i, :, :] = T @ A[..., i, :, :]
         return frames
 
-    def screws(self):
+    def screws(self) -> tuple[np.ndarray, np.ndarray]:
         """The same arm as a product of exponentials: S (6, n) with columns (omega; v), and M (4, 4).
 
         With q split off each link transform, A_i(q) = M_i e^[A]q, the screws are
@@ -124,7 +143,7 @@ class Table:
         S = (lie.adjoint(frames) @ A[..., None])[..., 0].T
         return S, self.fk(np.zeros(self.n))
 
-    def to_modified(self):
+    def to_modified(self) -> Table:
         """The modified table of the same arm: same joints, same base, same T(q).
 
         a and alpha move one row down; those of the last row move into the tool.
@@ -135,7 +154,7 @@ class Table:
         a, alpha = np.append(0.0, self.a[:-1]), np.append(0.0, self.alpha[:-1])
         return Table(a, alpha, self.d, self.theta, "modified", self.joint_types, self.base, tool)
 
-    def to_standard(self):
+    def to_standard(self) -> Table:
         """The standard table of the same arm: same joints, same tool, same T(q).
 
         a and alpha move one row up; those of the first row move into the base.
@@ -147,7 +166,7 @@ class Table:
         return Table(a, alpha, self.d, self.theta, "standard", self.joint_types, base, self.tool)
 
 
-def joint_types(types, n):
+def joint_types(types: Iterable[str] | None, n: int) -> tuple[str, ...]:
     """n words "revolute" / "prismatic" from words or letters; None means all revolute.
 
     Raises ValueError for another number of joints or an unknown word.
@@ -164,7 +183,7 @@ def joint_types(types, n):
     return tuple(_JOINTS[str(kind).lower()] for kind in types)
 
 
-def common_normal(S_1, S_2):
+def common_normal(S_1: ArrayLike, S_2: ArrayLike) -> tuple[np.floating, np.floating, np.ndarray, np.ndarray]:
     """DH parameters between two revolute axes: length, angle and feet of their common normal.
 
     S_1, S_2: unit screws (6,) = (omega; v) without pitch. Returns (a, alpha, foot_1, foot_2): metres, radians

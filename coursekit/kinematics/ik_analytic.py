@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import checks
 from .ik_geometry import Planar, geometry
@@ -23,6 +24,7 @@ from .ik_steps import (
     undo_joint1,
     without_hand,
 )
+from .robot import Robot
 
 CHUNK = 2048  # poses per block: the working set stays in the cache
 
@@ -37,27 +39,27 @@ class Solutions:
     branches   k names; the words are explained in `analytic`
     """
 
-    robot: object
+    robot: Robot
     T: np.ndarray
     theta: np.ndarray
-    branches: tuple
+    branches: tuple[str, ...]
 
     @cached_property
-    def exists(self):
+    def exists(self) -> np.ndarray:
         """Which branches exist: bool (..., k)."""
         return ~np.isnan(self.theta[..., 0])
 
     @cached_property
-    def within_limits(self):
+    def within_limits(self) -> np.ndarray:
         """Which branches exist and can be brought inside the joint limits (by whole turns): bool (..., k)."""
         return self.robot.within_limits(self.theta)
 
     @cached_property
-    def turned(self):
+    def turned(self) -> np.ndarray:
         """theta, joints turned by whole turns into their limits where that is possible: (..., k, n)."""
         return self.robot.nearest_turn(self.theta)
 
-    def nearest(self, theta0):
+    def nearest(self, theta0: ArrayLike) -> np.ndarray:
         """Number of the branch nearest to theta0 (..., n), differences taken round the circle: int (...).
 
         -1 where no branch exists.
@@ -67,7 +69,7 @@ class Solutions:
         distance = np.where(self.exists, np.sqrt((difference**2).sum(axis=-1)), np.inf)
         return np.where(self.exists.any(axis=-1), distance.argmin(axis=-1), -1)
 
-    def reasons(self, index=()):
+    def reasons(self, index: int | tuple[int, ...] = ()) -> tuple[str, ...]:
         """Why each branch of one pose is out: k sentences with numbers, "" for a branch inside the limits.
 
         index: which pose of the batch, an int or a tuple; not needed for a single pose.
@@ -85,7 +87,7 @@ class Solutions:
         )
 
 
-def analytic(robot, T):
+def analytic(robot: Robot, T: ArrayLike) -> Solutions:
     """Every configuration that puts the tool of the robot at T. T (..., 4, 4) -> Solutions.
 
     For arms with six hinges and a spherical wrist (or, as the UR5, three parallel axes). The 8 branches are
@@ -123,15 +125,17 @@ def analytic(robot, T):
     planar = isinstance(g, Planar)
     # reach, elbow, wrist, joint, pose: the poses come last in memory, because every step runs along them
     theta = np.empty((1, 2, 1, 2, len(flat)) if planar else (2, 2, 2, 6, len(flat)))
-    fill = solve_planar if planar else solve
     for start in range(0, len(flat), CHUNK):
         block = slice(start, start + CHUNK)
-        fill(g, flat[block], theta[..., block])
+        if isinstance(g, Planar):
+            solve_planar(g, flat[block], theta[..., block])
+        else:
+            solve(g, flat[block], theta[..., block])
     theta = np.moveaxis(theta, -1, 0).reshape(*T.shape[:-2], len(g.branches), robot.n)
     return Solutions(robot, T, theta, g.branches)
 
 
-def arm(robot, p):
+def arm(robot: Robot, p: ArrayLike) -> np.ndarray:
     """Joints 1 to 3 of an arm with a spherical wrist for the wrist centre p. p (..., 3) m -> (..., 4, 3) rad.
 
     The four solutions: front up, front down, back up, back down; NaN where there is none. The names are
@@ -150,7 +154,7 @@ def arm(robot, p):
     return np.moveaxis(theta, -1, 0).reshape(*p.shape[:-1], 4, 3)
 
 
-def wrist_centre(robot, T):
+def wrist_centre(robot: Robot, T: ArrayLike) -> np.ndarray:
     """Where axes 4, 5 and 6 meet when the tool is at T. T (..., 4, 4) -> (..., 3) m, space frame.
 
     >>> from coursekit import ik, robots

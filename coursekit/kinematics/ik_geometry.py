@@ -15,6 +15,7 @@ from functools import lru_cache
 import numpy as np
 
 from . import lie
+from .robot import Robot
 
 SAME = 1e-10  # directions (rad) and points (m) that differ by less are the same: rounding of S and M
 
@@ -24,9 +25,9 @@ class Planar:
     """Two parallel hinges, seen along them: coordinates (forward, left) from axis 1."""
 
     frame: np.ndarray  # (4, 4) pose of the arm's frame in the space frame
-    signs: tuple  # +1 where a joint turns from forward to left, -1 where it turns the other way
-    upper: tuple  # axis 1 -> axis 2 at theta = 0
-    fore: tuple  # axis 2 -> tool point at theta = 0
+    signs: tuple[float, ...]  # +1 where a joint turns from forward to left, -1 where it turns the other way
+    upper: tuple[float, float]  # axis 1 -> axis 2 at theta = 0
+    fore: tuple[float, float]  # axis 2 -> tool point at theta = 0
     height: float  # of the tool point along the axes
 
     branches = ("elbow-up", "elbow-down")
@@ -42,15 +43,15 @@ class Arm:
 
     family: str
     frame: np.ndarray  # (4, 4) pose of the arm's frame in the space frame
-    signs: tuple  # +1, or -1 for a joint that turns against the axis its angle is measured about
+    signs: tuple[float, ...]  # +1, or -1 for a joint that turns against the axis its angle is measured about
     axis4: float  # "parallel": +1 if axis 4 points to the side, -1 if against it
     shoulder: float  # forward coordinate of axis 2
     side: float  # side coordinate of P, which joints 2 and 3 (and 4) do not change
-    upper: tuple  # axis 2 -> axis 3 at theta = 0, (forward, up)
-    fore: tuple  # axis 3 -> P ("parallel": axis 3 -> axis 4), (forward, up)
-    hand: tuple  # "parallel": axis 4 -> P, (forward, up)
+    upper: tuple[float, float]  # axis 2 -> axis 3 at theta = 0, (forward, up)
+    fore: tuple[float, float]  # axis 3 -> P ("parallel": axis 3 -> axis 4), (forward, up)
+    hand: tuple[float, float]  # "parallel": axis 4 -> P, (forward, up)
     wrist: np.ndarray  # (3, 3) rows: directions of axis 4, axis 5 and their cross product
-    bend: tuple  # (cos, sin) of the angle from axis 4 to axis 6 about axis 5 at theta = 0
+    bend: tuple[float, float]  # (cos, sin) of the angle from axis 4 to axis 6 about axis 5 at theta = 0
     of_pose: np.ndarray  # (9, 16) what the solver needs of a pose T is linear in T: of_pose @ T.ravel()
     point: np.ndarray  # (3,) P in the tool frame
 
@@ -63,7 +64,7 @@ class Arm:
 
 
 @lru_cache(maxsize=64)  # of a frozen Robot, by identity
-def geometry(robot):
+def geometry(robot: Robot) -> Planar | Arm:
     """Planar or Arm of a robot; a ValueError names the first condition that fails."""
     for i, (kind, s) in enumerate(zip(robot.joint_types, robot.S.T, strict=True)):
         if kind != "revolute" or abs(s[:3] @ s[3:]) > SAME:

@@ -5,7 +5,10 @@ frame, about the tool point: diag(R, R) J_b and diag(R, R) e. No step notices: J
 J^T (J J^T + k^2 I)^-1 e stay as they are when J and e are turned together.
 """
 
+from __future__ import annotations
+
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import accumulate
@@ -13,6 +16,7 @@ from itertools import accumulate
 import numpy as np
 
 from . import lie
+from .robot import Robot
 
 CHUNK = 2048  # targets per block: the working set stays in the cache
 NEAR_PI = 1e-6  # rad; closer than this to half a turn the rotation vector is taken from the quaternion
@@ -43,21 +47,30 @@ class State:
     diverged: np.ndarray  # (N,) bool: numbers overflowed
 
     @classmethod
-    def new(cls, N, n):
+    def new(cls, N: int, n: int) -> State:
         """Nothing found yet."""
         theta, error, score = np.full((N, n), np.nan), np.full((N, 2), np.nan), np.full(N, np.inf)
         return cls(
             theta, error, score, np.zeros(N, bool), np.zeros(N, int), np.zeros(N, bool), np.zeros(N, bool)
         )
 
-    def take(self, rows, other, which=slice(None)):
+    def take(self, rows: np.ndarray, other: State, which: np.ndarray | slice = slice(None)) -> None:
         """Put `other`, where `which`, in place of the targets `rows`; iterations add up."""
         for key, mine in vars(self).items():
             theirs = getattr(other, key)[which]
             mine[rows] = mine[rows] + theirs if key == "iterations" else theirs
 
 
-def iterate(robot, goals, guess, rule, max_iterations, tol, rows="all", history=None):
+def iterate(
+    robot: Robot,
+    goals: np.ndarray,
+    guess: np.ndarray,
+    rule: Callable[[np.ndarray, np.ndarray], np.ndarray],
+    max_iterations: int,
+    tol: float,
+    rows: str = "all",
+    history: list[Step] | None = None,
+) -> State:
     """theta <- theta + rule(J, e) from guess (N, n) towards goals (N, 4, 4). -> State.
 
     rows "linear": J and e without the rotation. history: a list that collects the Steps of a single target.
@@ -119,7 +132,7 @@ def _iterate_one(robot, goal, theta, rule, max_iterations, tol, used, state, his
         theta, step = theta + change, math.sqrt(change @ change)
 
 
-def closest(robot, goals, theta, tol, rows="all"):
+def closest(robot: Robot, goals: np.ndarray, theta: np.ndarray, tol: float, rows: str = "all") -> State:
     """Downhill from theta (N, n) to a minimum of angle^2 + distance^2 (rows "linear": distance^2). -> State.
 
     Levenberg-Marquardt: a damped least squares step counts only if it brings the tool nearer; the damping
@@ -159,7 +172,7 @@ def closest(robot, goals, theta, tol, rows="all"):
     return state
 
 
-def look(robot, theta, goal):
+def look(robot: Robot, theta: np.ndarray, goal: np.ndarray | list) -> tuple:
     """J^T (N, n, 6) and what is left to do: omega, v, gap (3 each) and (angle, distance).
 
     theta (N, n) and goal = `_arrays` of N poses. omega and v are log(T_sb^-1 T_sd), gap is the way from the
@@ -174,8 +187,8 @@ def look(robot, theta, goal):
     E = (basis @ constants).reshape(*t.shape, 4, 4)
     F = np.empty((n + 1, *E.shape[1:]))  # link frames with z along the joint axis, and the tool frame
     F[0] = start
-    for i in range(n):
-        np.matmul(F[i], E[i], out=F[i + 1])
+    for k in range(n):
+        np.matmul(F[k], E[k], out=F[k + 1])
     *frames, (x, y, z, p) = _numbers(F[:, 0]) if one else _arrays(F)
 
     # Column i of J: (z, z cross (p - q)) with z and origin q of the frame on axis i; (0, z) where it slides.

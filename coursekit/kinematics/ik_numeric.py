@@ -11,9 +11,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import checks
-from .ik_iterate import closest, iterate
+from .ik_iterate import Step, closest, iterate
+from .robot import Robot
 
 CONVERGED = "converged"
 LIMIT = "iteration limit: still coming nearer"
@@ -40,22 +42,22 @@ class Numeric:
     history     for a single target: one `Step` per step of the method, the guess first; else ()
     """
 
-    robot: object
+    robot: Robot
     T: np.ndarray
     theta: np.ndarray
     converged: np.ndarray
     iterations: np.ndarray
     error: np.ndarray
     reason: np.ndarray
-    history: tuple = ()
+    history: tuple[Step, ...] = ()
 
     @cached_property
-    def within_limits(self):
+    def within_limits(self) -> np.ndarray:
         """Whether theta can be brought inside the joint limits by whole turns: bool (...)."""
         return self.robot.within_limits(self.theta)
 
 
-def newton_step(J, e):
+def newton_step(J: ArrayLike, e: ArrayLike) -> np.ndarray:
     """J^+ e: the shortest step that would remove the error e of a linear arm. -> (..., n)
 
     J (..., m, n), e (..., m).
@@ -68,7 +70,7 @@ def newton_step(J, e):
     return (np.linalg.pinv(J, rcond=SINGULAR) @ e[..., None])[..., 0]
 
 
-def transpose_step(J, e, gain=1.0):
+def transpose_step(J: ArrayLike, e: ArrayLike, gain: float = 1.0) -> np.ndarray:
     """gain J^T e: steepest descent of |e|^2 / 2. J (..., m, n), e (..., m) -> (..., n).
 
     Near a solution it converges for 0 < gain < 2 / sigma_max(J)^2, which depends on the unit of length: what
@@ -81,7 +83,7 @@ def transpose_step(J, e, gain=1.0):
     return gain * (np.swapaxes(J, -1, -2) @ e[..., None])[..., 0]
 
 
-def dls_step(J, e, damping):
+def dls_step(J: ArrayLike, e: ArrayLike, damping: ArrayLike) -> np.ndarray:
     """J^T (J J^T + k^2 I)^-1 e with k = damping: a Newton step that stays short near singular poses.
 
     J (..., m, n), e (..., m), damping (...) -> (..., n). It minimises |J step - e|^2 + k^2 |step|^2.
@@ -96,14 +98,21 @@ def dls_step(J, e, damping):
     return (Jt @ np.linalg.solve(J @ Jt + k * k * identity, e[..., None]))[..., 0]
 
 
-def _step_arguments(J, e):
+def _step_arguments(J: ArrayLike, e: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     J, e = np.asarray(J, dtype=float), np.asarray(e, dtype=float)
     if J.ndim < 2 or J.shape[-2:-1] != e.shape[-1:]:
         raise ValueError(f"J must be (..., m, n) and e (..., m), got {J.shape} and {e.shape}")
     return J, e
 
 
-def newton(robot, T, theta0, max_iterations=50, tol=1e-10, rows="all"):
+def newton(
+    robot: Robot,
+    T: ArrayLike,
+    theta0: ArrayLike,
+    max_iterations: int = 50,
+    tol: float = 1e-10,
+    rows: str = "all",
+) -> Numeric:
     """Newton-Raphson: theta <- theta + J_b^+ e. T (..., 4, 4), theta0 (..., n) -> Numeric, (...) broadcast.
 
     Near a solution each step doubles the number of right digits; far from one, or near a singular pose, steps
@@ -130,7 +139,15 @@ def newton(robot, T, theta0, max_iterations=50, tol=1e-10, rows="all"):
     return _solve(robot, T, theta0, newton_step, max_iterations, tol, rows)
 
 
-def transpose(robot, T, theta0, gain=0.5, max_iterations=2000, tol=1e-6, rows="all"):
+def transpose(
+    robot: Robot,
+    T: ArrayLike,
+    theta0: ArrayLike,
+    gain: float = 0.5,
+    max_iterations: int = 2000,
+    tol: float = 1e-6,
+    rows: str = "all",
+) -> Numeric:
     """The Jacobian transpose: theta <- theta + gain J_b^T e. Arguments and result as `newton`.
 
     Steepest descent: no inverse, no trouble at singular poses, and slow, since each step takes off a fixed
@@ -149,8 +166,16 @@ def transpose(robot, T, theta0, gain=0.5, max_iterations=2000, tol=1e-6, rows="a
 
 
 def damped_least_squares(
-    robot, T, theta0, damping=None, max_iterations=None, tol=1e-10, rows="all", restarts=0, rng=None
-):
+    robot: Robot,
+    T: ArrayLike,
+    theta0: ArrayLike,
+    damping: float | None = None,
+    max_iterations: int | None = None,
+    tol: float = 1e-10,
+    rows: str = "all",
+    restarts: int = 0,
+    rng: np.random.Generator | None = None,
+) -> Numeric:
     """Damped least squares: theta <- theta + J^T (J J^T + k^2 I)^-1 e. Arguments and result as `newton`.
 
     damping         a number: k, which keeps steps short near singular poses and slows convergence everywhere.

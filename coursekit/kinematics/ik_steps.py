@@ -17,7 +17,10 @@ pose), of length 1 where a step makes no difference.
 
 import numpy as np
 
-from .subproblems import NOTHING, angle, swing, turn, undo, unit
+from .ik_geometry import Arm, Planar
+from .subproblems import NOTHING, Number, Pair, angle, swing, turn, undo, unit
+
+Direction = tuple[Number, Number, Number]  # (forward, up, side) in the frame of the arm
 
 OFF_PLANE = 1e-9  # m; a planar arm reaches points nearer than this to its plane
 
@@ -27,7 +30,7 @@ ELBOW = np.array([[-1.0, 1.0], [1.0, -1.0]]).reshape(2, 2, 1, 1)  # up and down 
 WRIST = np.array([1.0, -1.0]).reshape(1, 1, 2, 1)  # no-flip, flip
 
 
-def solve(g, T, out):
+def solve(g: Arm, T: np.ndarray, out: np.ndarray) -> None:
     """All branches for T (N, 4, 4) into out (2, 2, 2, 6, N)."""
     P, axis6, axis5 = needed(g, T)
     t1, target = reach(g, P)
@@ -43,13 +46,13 @@ def solve(g, T, out):
     store(out, g, (t1, t2, t3, t4, t5, t6))
 
 
-def needed(g, T):
+def needed(g: Arm, T: np.ndarray) -> np.ndarray:
     """P and the directions of axes 6 and 5 that T asks for: (forward, up, side) each, in the arm's frame."""
     numbers = g.of_pose @ T.reshape(-1, 16).T
     return numbers.reshape(3, 3, 1, 1, 1, -1).swapaxes(0, 1)
 
 
-def reach(g, P):
+def reach(g: Arm, P: np.ndarray) -> tuple[Pair, Pair]:
     """Joint 1, and P in the plane of the arm as seen from axis 2.
 
     Undoing joint 1 must give P the side coordinate that it had at theta = 0:
@@ -60,7 +63,7 @@ def reach(g, P):
     return t1, (t1[0] * forward - t1[1] * side - g.shoulder, up)
 
 
-def elbow(g, target, side=ELBOW):
+def elbow(g: Arm | Planar, target: Pair, side: np.ndarray = ELBOW) -> tuple[Pair, Pair]:
     """Joints 2 and 3 that bring the forearm's end to the target: rot(t2)(upper + rot(t3) fore) = target."""
     upper, fore = g.upper, g.fore
     c = 0.5 * (square(target) - square(upper) - square(fore))  # = upper . rot(t3) fore, the law of cosines
@@ -92,7 +95,9 @@ def _wrist(g, axis6, axis5, free=lambda: (1.0, 0.0)):
     return (c4, s4), turn(undo(g.bend), u[0], sin_b), t6
 
 
-def without_hand(g, target, axis6, axis5):
+def without_hand(
+    g: Arm, target: Pair, axis6: Direction, axis5: Direction
+) -> tuple[Pair, tuple[Pair, Pair, Pair]]:
     """Three parallel axes: the sum of joints 2, 3 and 4, joints 5 and 6, and where that leaves axis 4."""
     t234, t5, t6 = _wrist(g, axis6, axis5, lambda: _free_hand(g, target))
     t234 = _signed(t234, g.axis4)  # about axis 4 -> about the side direction
@@ -108,7 +113,7 @@ def _free_hand(g, target):
     return _signed(swing(_dot(target, g.hand), _cross(g.hand, target), c, 1.0), g.axis4)
 
 
-def undo_joint1(t1, x):
+def undo_joint1(t1: Pair, x: Direction) -> Direction:
     """A direction (forward, up, side) as it was before joint 1 turned."""
     forward, side = turn(t1, x[0], x[2])  # turning against the joint is turning from forward to side
     return forward, x[1], side
@@ -119,14 +124,14 @@ def _undo_arm(t23, x):
     return *turn(undo(t23), x[0], x[1]), x[2]
 
 
-def store(out, g, turns):
+def store(out: np.ndarray, g: Arm | Planar, turns: tuple[Pair, ...]) -> None:
     """Turns (cos, sin) in the frame of the arm -> joint angles in out (reach, elbow, wrist, joint, pose)."""
     missing = 0.0 * turns[1][0]  # NaN where joint 2 cannot reach: then no joint has an angle
     for joint, t in enumerate(turns):
         out[:, :, :, joint] = angle(_signed(t, g.signs[joint])) + missing
 
 
-def solve_planar(g, T, out):
+def solve_planar(g: Planar, T: np.ndarray, out: np.ndarray) -> None:
     """Both branches for T (N, 4, 4) into out (1, 2, 1, 2, N)."""
     x, y, height = ((T[:, :3, 3] - g.frame[:3, 3]) @ g.frame[:3, :3]).T.reshape(3, 1, 1, 1, -1)
     x = np.where(np.abs(height - g.height) > OFF_PLANE, np.nan, x)
@@ -144,7 +149,7 @@ def _cross(a, b):
     return a[0] * b[1] - a[1] * b[0]
 
 
-def square(a):
+def square(a: Pair) -> Number:
     """|a|^2."""
     return _dot(a, a)
 

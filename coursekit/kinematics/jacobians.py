@@ -9,8 +9,10 @@ section 5.4.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import checks, lie
+from .robot import Robot
 
 PARTS = {"angular": slice(0, 3), "linear": slice(3, 6)}
 ROUNDING = (
@@ -28,7 +30,7 @@ __all__ = [
 ]
 
 
-def skew_theory(robot, theta):
+def skew_theory(robot: Robot, theta: ArrayLike) -> np.ndarray:
     """Column i is (w_i; w_i x (p_n - o_i)): the axis, and the lever from a point of it to the tool.
 
     theta (..., n) rad or m -> J (..., 6, n), rows (omega; v) along the base axes. Where joint i slides, w_i
@@ -50,7 +52,7 @@ def skew_theory(robot, theta):
     return np.swapaxes(np.concatenate([w_i, v_i], axis=-1), -1, -2)
 
 
-def by_matrix_derivative(robot, theta):
+def by_matrix_derivative(robot: Robot, theta: ArrayLike) -> np.ndarray:
     """Differentiate T = H_1 ... H_n M by one joint at a time, and read velocities off the matrix.
 
     dT/dtheta_i = T_left Hdot_i T_right. Behind it T_o takes the rotation of T back, so that
@@ -74,7 +76,7 @@ def by_matrix_derivative(robot, theta):
     return np.stack(rows, axis=-2)
 
 
-def by_differences(robot, theta, step=1e-5):
+def by_differences(robot: Robot, theta: ArrayLike, step: float = 1e-5) -> np.ndarray:
     """Move each joint a step forwards and a step back, and divide by what lies between.
 
     theta (..., n) -> J (..., 6, n), rows (omega; v); good to 1e-10 with the default step. The
@@ -96,7 +98,7 @@ def by_differences(robot, theta, step=1e-5):
     return np.swapaxes(np.concatenate([w, v], axis=-1), -1, -2) / (2 * step)
 
 
-def planar(robot, theta):
+def planar(robot: Robot, theta: ArrayLike) -> np.ndarray:
     """Velocity of the tool point of a planar arm. theta (..., n) -> (..., 2, n), rows (x, y) of the base.
 
     Raises ValueError where a joint leaves the x-y plane. Robotics I exam, 17 June 2019, exercise 2.
@@ -125,29 +127,29 @@ class Ellipsoid:
     lengths: np.ndarray
 
     @property
-    def product(self):
+    def product(self) -> np.ndarray:
         """sqrt(lambda_1 lambda_2 lambda_3), the product of the half axes: what the sources call volume V."""
         return np.prod(self.lengths, axis=-1)
 
     @property
-    def volume(self):
+    def volume(self) -> np.ndarray:
         """The volume of the ellipsoid, 4/3 pi times the product of its half axes."""
         return 4 / 3 * np.pi * self.product
 
     @property
-    def isotropy(self):
+    def isotropy(self) -> np.ndarray:
         """mu_1 = sqrt(lambda_max / lambda_min): 1 for a sphere, infinite where a direction is lost."""
         longest, shortest = self.lengths[..., 0], self.lengths[..., -1]
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.where(shortest == 0, np.inf, longest / shortest)
 
     @property
-    def condition(self):
+    def condition(self) -> np.ndarray:
         """mu_2 = lambda_max / lambda_min, the square of the isotropy."""
         return self.isotropy**2
 
 
-def ellipsoid(J, part="angular"):
+def ellipsoid(J: ArrayLike, part: str = "angular") -> Ellipsoid:
     """The velocity ellipsoid of the angular or the linear rows of a Jacobian. J (..., 6, n) -> Ellipsoid.
 
     By singular values of the rows A, never by eigenvalues of A A^T: squaring would lose half of the digits,
@@ -168,7 +170,7 @@ def ellipsoid(J, part="angular"):
     return Ellipsoid(axes, lengths)
 
 
-def manipulability(J):
+def manipulability(J: ArrayLike) -> np.ndarray:
     """Product of the singular values: sqrt(det(J J^T)) for n >= rows (Yoshikawa), |det J| for a square J.
 
     J (..., rows, n) -> (...). With fewer joints than rows it is sqrt(det(J^T J)).
@@ -186,7 +188,7 @@ def manipulability(J):
     return np.prod(left_singular(J)[1], axis=-1)
 
 
-def left_singular(A):
+def left_singular(A: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Left singular vectors (..., m, m), as columns, and singular values (..., min(m, n)), largest first.
 
     A (..., m, n). The sign of each vector is fixed: its largest component is positive. NaN in, NaN out.

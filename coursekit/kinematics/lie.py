@@ -5,6 +5,7 @@ keep 14 digits from 1e-12 rad to pi, because no small number is ever the differe
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import checks
 from .rotations import quaternion
@@ -12,7 +13,7 @@ from .rotations import quaternion
 SMALL = 1e-2  # rad; below it (1 - sin t / t) / t^2 loses digits, and three terms of its series have them all
 
 
-def hat3(w):
+def hat3(w: ArrayLike) -> np.ndarray:
     """[w]: the matrix with [w] x = w cross x. w (..., 3) -> (..., 3, 3). Eq. 3.30.
 
     >>> hat3([1, 2, 3]).tolist()
@@ -24,7 +25,7 @@ def hat3(w):
     return W - np.swapaxes(W, -1, -2)
 
 
-def vee3(W):
+def vee3(W: ArrayLike) -> np.ndarray:
     """w of a skew-symmetric [w]. W (..., 3, 3) -> (..., 3).
 
     >>> vee3(hat3([1, 2, 3])).tolist()
@@ -34,7 +35,7 @@ def vee3(W):
     return np.stack([W[..., 2, 1], W[..., 0, 2], W[..., 1, 0]], axis=-1)
 
 
-def hat6(xi):
+def hat6(xi: ArrayLike) -> np.ndarray:
     """[xi]: the 4x4 matrix of a twist. xi (..., 6) = (omega; v) -> (..., 4, 4). Eq. 3.71.
 
     >>> hat6([0, 0, 1, 4, 5, 6]).tolist()
@@ -46,7 +47,7 @@ def hat6(xi):
     return X
 
 
-def vee6(X):
+def vee6(X: ArrayLike) -> np.ndarray:
     """xi of [xi]. X (..., 4, 4) -> (..., 6) = (omega; v).
 
     >>> vee6(hat6([1, 2, 3, 4, 5, 6])).tolist()
@@ -56,7 +57,7 @@ def vee6(X):
     return np.concatenate([vee3(X[..., :3, :3]), X[..., :3, 3]], axis=-1)
 
 
-def exp3(w):
+def exp3(w: ArrayLike) -> np.ndarray:
     """Rotation by |w| rad about w (Rodrigues). w (..., 3) -> R (..., 3, 3). Eq. 3.51.
 
     R = I + sin t / t [w] + (1 - cos t) / t^2 [w]^2, where t = |w|.
@@ -69,7 +70,7 @@ def exp3(w):
     return np.eye(3) + A * W + B * (W @ W)
 
 
-def exp6(xi):
+def exp6(xi: ArrayLike) -> np.ndarray:
     """Pose that the twist xi reaches after unit time. xi (..., 6) = (omega; v) -> T (..., 4, 4). Eq. 3.88.
 
     R = exp3(omega) and p = (I + (1 - cos t) / t^2 [w] + (t - sin t) / t^3 [w]^2) v, where t = |omega|.
@@ -100,7 +101,7 @@ def _exp_coefficients(w):
     return A, B, C
 
 
-def log3(R):
+def log3(R: ArrayLike) -> np.ndarray:
     """w with exp3(w) = R and |w| <= pi: the angle-axis product. R (..., 3, 3) -> (..., 3). Section 3.2.3.3.
 
     Taken from the quaternion, never from arccos(trace): exact to rounding at 0 and at pi too. At a half turn
@@ -116,7 +117,7 @@ def log3(R):
     return v * np.where(half_sine == 0, 2.0, 2 * np.arctan2(half_sine, w) / safe)
 
 
-def log6(T):
+def log6(T: ArrayLike) -> np.ndarray:
     """xi with exp6(xi) = T and |omega| <= pi. T (..., 4, 4) -> (..., 6) = (omega; v). Eqs. 3.90-3.92.
 
     v = (I - 1/2 [w] + D [w]^2) p, where t = |w| and D = (1 - t/2 cot(t/2)) / t^2.
@@ -135,7 +136,7 @@ def log6(T):
     return np.concatenate([w, v[..., 0]], axis=-1)
 
 
-def inverse(T):
+def inverse(T: ArrayLike) -> np.ndarray:
     """T_ba of T_ab, without a matrix inversion. T (..., 4, 4) -> (..., 4, 4). Eq. 3.64.
 
     >>> inverse([[0, -1, 0, 1], [1, 0, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]])[:3, 3].tolist()
@@ -150,7 +151,7 @@ def inverse(T):
     return result
 
 
-def adjoint(T):
+def adjoint(T: ArrayLike) -> np.ndarray:
     """[Ad_T]: maps a twist in frame b to frame a, for T = T_ab. T (..., 4, 4) -> (..., 6, 6). Eq. 3.83.
 
     [Ad_T] = [[R, 0], [[p] R, R]] for twists (omega; v).

@@ -8,8 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import checks
+from .robot import Robot
 
 SPHERE_RADIUS = 0.5  # m
 SPHERE_CENTER = (0.0, 0.0, 0.5)  # m
@@ -22,7 +24,7 @@ JUMP = np.pi / 2  # rad between neighbouring points: more is another branch, not
 # -- curves ------------------------------------------------------------------------------------------------
 
 
-def s_curve(n=101):
+def s_curve(n: int = 101) -> np.ndarray:
     """The letter S on the sphere: n points at equal arc length. -> (n, 3), metres.
 
     In the letter plane: an arc of radius 0.25 about (0, -0.25) from -150 to 90 degrees, and the same arc
@@ -38,7 +40,7 @@ def s_curve(n=101):
     return resample(on_sphere(np.concatenate([lower, upper])), n)
 
 
-def on_sphere(letter):
+def on_sphere(letter: ArrayLike) -> np.ndarray:
     """Lays the letter plane on the sphere. letter (..., 2) = (Y, Z) -> (..., 3), metres.
 
     The inverse stereographic projection from the pole (-0.5, 0, 0.5): t = 1 / (1 + Y^2 + Z^2),
@@ -52,7 +54,7 @@ def on_sphere(letter):
     return np.stack([t - SPHERE_RADIUS, t * Y, t * Z + SPHERE_RADIUS], axis=-1)
 
 
-def load_points(source):
+def load_points(source: str | Path) -> np.ndarray:
     """A curve of your own, from a file or from text. -> (m, 3) points, or (m, 2) in the letter plane.
 
     source: the name of a CSV file, or the text itself (anything with more than one line). Columns x, y, z in
@@ -64,8 +66,8 @@ def load_points(source):
     [[0.5, 0.0, 0.5], [0.4, 0.1, 0.5]]
     """
     is_text = isinstance(source, str) and "\n" in source
-    text = source if is_text else Path(source).read_text(encoding="utf-8-sig")
-    rows = []
+    text = str(source) if is_text else Path(source).read_text(encoding="utf-8-sig")
+    rows: list[list[float]] = []
     for number, line in enumerate(text.splitlines(), start=1):
         words = line.replace(",", " ").replace(";", " ").split()
         if not words or words[0].startswith("#"):
@@ -94,7 +96,7 @@ def _row(words, width, line):
     return row
 
 
-def resample(points, n):
+def resample(points: ArrayLike, n: int) -> np.ndarray:
     """n points at equal arc length on a smooth curve through the given ones. points (m, d) -> (n, d).
 
     A cubic spline (not-a-knot) through the points, over the summed distances between them: the denser the
@@ -113,7 +115,7 @@ def resample(points, n):
     return CubicSpline(length, points)(np.linspace(0.0, length[-1], n))
 
 
-def steps(points):
+def steps(points: ArrayLike) -> np.ndarray:
     """Distances between neighbouring points, all alike on a resampled curve. (m, d) -> (m - 1,), metres.
 
     Raises ValueError where neighbouring points coincide: a path has no direction there.
@@ -128,7 +130,7 @@ def steps(points):
     return length
 
 
-def frames(points, center=SPHERE_CENTER):
+def frames(points: ArrayLike, center: ArrayLike = SPHERE_CENTER) -> np.ndarray:
     """Tool poses along a curve on a sphere. points (m, 3), center (3,), metres -> (m, 4, 4).
 
     x is the outward normal, y the direction of motion made perpendicular to x (from each point to the next;
@@ -155,7 +157,7 @@ def frames(points, center=SPHERE_CENTER):
 # -- the arm on the path -----------------------------------------------------------------------------------
 
 
-def follow(robot, T):
+def follow(robot: Robot, T: ArrayLike) -> np.ndarray:
     """Every way the arm can follow the poses T, as continuous joint paths. T (m, 4, 4) -> (k, m, n), rad.
 
     The k solutions of `ik.analytic` at neighbouring poses are paired by nearness, angles compared modulo
@@ -191,7 +193,7 @@ def follow(robot, T):
     return np.swapaxes(q, 0, 1)
 
 
-def points_reached(q):
+def points_reached(q: ArrayLike) -> np.ndarray:
     """How many points of the path each branch reaches before it breaks. q (..., m, n) -> whole numbers (...).
 
     >>> points_reached([[[0.0], [1.0]], [[0.0], [np.nan]]]).tolist()
@@ -201,7 +203,7 @@ def points_reached(q):
     return np.logical_and.accumulate(present, axis=-1).sum(axis=-1)
 
 
-def joint_rates(q, points, speed):
+def joint_rates(q: ArrayLike, points: ArrayLike, speed: float) -> np.ndarray:
     """Joint rates when the tool runs along the points at constant speed. -> (..., m - 1, n), rad/s.
 
     q (..., m, n) continuous joint path, points (m, d) metres, speed in m/s. Between two points the joints
@@ -230,7 +232,7 @@ class SpeedLimit:
     index: np.ndarray
 
 
-def speed_limit(q, points, v_max):
+def speed_limit(q: ArrayLike, points: ArrayLike, v_max: ArrayLike) -> SpeedLimit:
     """How fast the tool may go along the points at constant speed. -> SpeedLimit.
 
     q (..., m, n) joint path, continuous (`follow` unwraps it: an angle that jumps by 2 pi would look like a

@@ -3,9 +3,14 @@
 T(theta) = e^[S_1]theta_1 ... e^[S_n]theta_n M      (Lynch & Park, eq. 4.14)
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import checks, dh, lie, screws
 
@@ -32,15 +37,15 @@ class Robot:
     S: np.ndarray
     M: np.ndarray
     name: str = "robot"
-    joint_types: tuple = None
-    q_min: np.ndarray = None
-    q_max: np.ndarray = None
-    v_max: np.ndarray = None
-    home: np.ndarray = None
-    standard_dh: dh.Table = None
-    modified_dh: dh.Table = None
+    joint_types: tuple[str, ...] = checks.NOT_GIVEN
+    q_min: np.ndarray = checks.NOT_GIVEN
+    q_max: np.ndarray = checks.NOT_GIVEN
+    v_max: np.ndarray = checks.NOT_GIVEN
+    home: np.ndarray = checks.NOT_GIVEN
+    standard_dh: dh.Table | None = None
+    modified_dh: dh.Table | None = None
     source: str = ""
-    discrepancies: tuple = ()
+    discrepancies: tuple[str, ...] = ()
     B: np.ndarray = field(init=False, repr=False)  # (6, n) body screws, Ad(M^-1) S
     _exponentials: np.ndarray = field(init=False, repr=False)  # (n, 4, 16), see _exponential_constants
     _exponentials_to_tool: np.ndarray = field(
@@ -51,6 +56,10 @@ class Robot:
     _slides: np.ndarray = field(
         init=False, repr=False
     )  # (n,) along the axis per rad or m: 0 for a hinge, else 1
+
+    if TYPE_CHECKING:  # the constructor takes lists, too; fields say what __post_init__ makes of them
+
+        def __init__(self, S: ArrayLike, M: ArrayLike, **more: Any) -> None: ...
 
     def __post_init__(self):
         S = checks.array(self.S, (), f"{self.name}: S")
@@ -84,7 +93,7 @@ class Robot:
     # -- ways to make one ---------------------------------------------------------------------------------
 
     @classmethod
-    def from_screws(cls, S, M, **more):
+    def from_screws(cls, S: ArrayLike, M: ArrayLike, **more: Any) -> Robot:
         """From space screws S (6, n) and the home pose M (4, 4). Other fields by name (see the class).
 
         Raises ValueError where a screw has no direction or none of unit length, or M is not in SE(3).
@@ -96,7 +105,9 @@ class Robot:
         return cls(S, M, **more)
 
     @classmethod
-    def from_axes(cls, w, q, M, joint_types=None, **more):
+    def from_axes(
+        cls, w: ArrayLike, q: ArrayLike, M: ArrayLike, joint_types: Iterable[str] | None = None, **more: Any
+    ) -> Robot:
         """From what one reads off a drawing: directions w (n, 3) and points q (n, 3) on the axes, metres.
 
         A revolute joint gets S = (w; -w x q), a prismatic one S = (0; w). Directions are scaled to length 1.
@@ -115,15 +126,15 @@ class Robot:
         length = np.linalg.norm(w, axis=1, keepdims=True)
         if not np.all(length > 0):
             raise ValueError(f"{name}: the axis of joint {np.argmin(length) + 1} has direction zero")
-        w = w / length
-        slides = np.array([kind == "prismatic" for kind in dh.joint_types(joint_types, len(w))])[:, None]
+        unit = w / length
+        slides = np.array([kind == "prismatic" for kind in dh.joint_types(joint_types, len(unit))])[:, None]
         S = (
-            np.hstack([np.where(slides, 0.0, w), np.where(slides, w, -np.cross(w, q))]).T + 0.0
+            np.hstack([np.where(slides, 0.0, unit), np.where(slides, unit, -np.cross(unit, q))]).T + 0.0
         )  # + 0.0: no -0
         return cls(S, M, joint_types=joint_types, **more)
 
     @classmethod
-    def from_dh(cls, table, **more):
+    def from_dh(cls, table: dh.Table, **more: Any) -> Robot:
         """From a `dh.Table` of either convention; the other table is made from it.
 
         >>> table = dh.Table(a=[0.5, 0.25], alpha=[0, 0], d=[0, 0], theta=[0, 0])
@@ -138,7 +149,7 @@ class Robot:
         tables = {"standard_dh": table.to_standard(), "modified_dh": table.to_modified()}
         return cls(S, M, **{**tables, "joint_types": table.joint_types, **more})
 
-    def with_tool(self, T):
+    def with_tool(self, T: ArrayLike) -> Robot:
         """The same arm with a tool: T (4, 4) is the new tool frame in the old one. M becomes M T.
 
         >>> Robot.from_axes([[0, 0, 1]], [[0, 0, 0]], np.eye(4)).with_tool(np.eye(4)).n
@@ -147,7 +158,7 @@ class Robot:
         T = checks.pose(T, f"{self.name}: the tool")
         return replace(self, M=self.M @ T, **self._tables(lambda table: replace(table, tool=table.tool @ T)))
 
-    def with_base(self, T):
+    def with_base(self, T: ArrayLike) -> Robot:
         """The same arm elsewhere: T (4, 4) is the old space frame in the new one. S -> Ad(T) S, M -> T M.
 
         >>> Robot.from_axes([[0, 0, 1]], [[0, 0, 0]], np.eye(4)).with_base(np.eye(4)).n
@@ -165,11 +176,11 @@ class Robot:
     # -- forward kinematics --------------------------------------------------------------------------------
 
     @property
-    def n(self):
+    def n(self) -> int:
         """Number of joints."""
         return self.S.shape[1]
 
-    def fk(self, theta):
+    def fk(self, theta: ArrayLike) -> np.ndarray:
         """Pose of the tool in the space frame. theta (..., n) rad or m -> T (..., 4, 4). Eq. 4.14.
 
         Raises ValueError if the last axis of theta is not n. NaN in, NaN out.
@@ -190,7 +201,7 @@ class Robot:
             T[block] = product
         return T.reshape(*theta.shape[:-1], 4, 4)
 
-    def displacements(self, theta):
+    def displacements(self, theta: ArrayLike) -> np.ndarray:
         """How each link moved from where it stands at theta = 0: e^[S_1]theta_1 ... e^[S_i]theta_i.
 
         theta (..., n) -> (..., n, 4, 4). A point p of link i (space frame, theta = 0) is now at D_i p.
@@ -206,7 +217,7 @@ class Robot:
                 product = D[block, i] = product @ E[i]
         return D.reshape(*theta.shape[:-1], self.n, 4, 4)
 
-    def link_frames(self, theta):
+    def link_frames(self, theta: ArrayLike) -> np.ndarray:
         """Poses of the frames fixed to the links, in the space frame. theta (..., n) -> (..., n, 4, 4).
 
         Frame i has its z along joint axis i and its origin where the modified DH convention puts it (for a
@@ -224,7 +235,7 @@ class Robot:
 
     # -- Jacobians -------------------------------------------------------------------------------------------
 
-    def jacobian_space(self, theta):
+    def jacobian_space(self, theta: ArrayLike) -> np.ndarray:
         """J_s: V_s = J_s thetadot, both in the space frame. theta (..., n) -> (..., 6, n), rows (omega; v).
 
         Column i is Ad(e^[S_1]theta_1 ... e^[S_{i-1}]theta_{i-1}) S_i (eq. 5.11).
@@ -243,14 +254,14 @@ class Robot:
             J[block] = moved.transpose(2, 0, 1)
         return J.reshape(*theta.shape[:-1], 6, self.n)
 
-    def jacobian_body(self, theta):
+    def jacobian_body(self, theta: ArrayLike) -> np.ndarray:
         """J_b: V_b = J_b thetadot, in the tool frame. theta (..., n) -> (..., 6, n), rows (omega; v).
 
         J_b = Ad(T^-1) J_s (eq. 5.22).
         """
         return lie.adjoint(lie.inverse(self.fk(theta))) @ self.jacobian_space(theta)
 
-    def jacobian_geometric(self, theta):
+    def jacobian_geometric(self, theta: ArrayLike) -> np.ndarray:
         """Angular velocity and velocity of the tool point, both along the base axes: (..., n) -> (..., 6, n).
 
         Rows (w; v): v = v_s + w x p moves the reference point of the space Jacobian to the tool point p.
@@ -262,7 +273,7 @@ class Robot:
 
     # -- limits ----------------------------------------------------------------------------------------------
 
-    def within_limits(self, theta):
+    def within_limits(self, theta: ArrayLike) -> np.ndarray:
         """Whether every joint can be brought inside its limits. theta (..., n) -> bool (...).
 
         A revolute joint may be turned by whole turns first: theta and theta +- 2 pi are the same attitude of
@@ -273,14 +284,14 @@ class Robot:
         >>> bool(s030.within_limits(np.radians([180, -174.72, 23.12, 0, 180, 0])))
         True
         """
-        return self.inside(theta).all(axis=-1)
+        return np.all(self.inside(theta), axis=-1)
 
-    def inside(self, theta):
+    def inside(self, theta: ArrayLike) -> np.ndarray:
         """Whether each joint can be brought inside its limits. theta (..., n) -> bool (..., n)."""
         shifted = self.nearest_turn(theta)
         return (self.q_min <= shifted) & (shifted <= self.q_max)
 
-    def nearest_turn(self, theta):
+    def nearest_turn(self, theta: ArrayLike) -> np.ndarray:
         """theta with revolute joints turned by whole turns into their limits where that is possible.
 
         theta (..., n) -> (..., n). A joint that no whole turn brings inside keeps its angle.

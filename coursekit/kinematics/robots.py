@@ -13,7 +13,7 @@ from .robot import Robot
 X, Y, Z = np.eye(3)
 
 
-def all():
+def all() -> dict[str, Robot]:
     """Every robot of the catalogue by the name of its function. -> {name: Robot}
 
     >>> sorted(all())[:3]
@@ -33,7 +33,7 @@ def all():
     return {make.__name__: make() for make in makers}
 
 
-def kuka_kr6():
+def kuka_kr6() -> Robot:
     """KUKA KR6 R900 sixx (Agilus): 6R, spherical wrist, joints 1, 4 and 6 about -z, -x and -x.
 
     Source: TPK4170 report 2021, table 3.1 and eq. 3.5; limits and speeds: KUKA's data as in the
@@ -57,7 +57,7 @@ def kuka_kr6():
     )
 
 
-def kuka_kr10():
+def kuka_kr10() -> Robot:
     """KUKA KR10 R1100-2, the true robot: the forearm is offset 25 mm upwards, perpendicular to itself.
 
     Source: KUKA's data sheet (limits, reach 1101 mm) and the public description kr10_r1100_2.
@@ -78,7 +78,7 @@ def kuka_kr10():
     )
 
 
-def kuka_kr10_report():
+def kuka_kr10_report() -> Robot:
     """The KR10 as the Innopolis assignment 3 (2020) models it: a straight forearm of 25 + 515 = 540 mm.
 
     Its reach would be 1125 mm; the true robot's is 1101 mm. Joints 1, 4 and 6 turn about +z, +x and +x.
@@ -99,7 +99,7 @@ def kuka_kr10_report():
     )
 
 
-def abb_irb1200():
+def abb_irb1200() -> Robot:
     """ABB IRB 1200-5/0.9: 6R, spherical wrist, upright at zero.
 
     Source: RPI mini project 3 (2021) for the frames, ROS-Industrial irb1200_5_90 for the numbers.
@@ -134,7 +134,7 @@ def abb_irb1200():
     )
 
 
-def franka_panda():
+def franka_panda() -> Robot:
     """Franka Emika Panda: 7R, redundant, no spherical wrist (88 mm between axes 6 and 7). Tool: the flange.
 
     Source: Franka's modified DH table (franka_ros); the Panda programming assignment gives no numbers.
@@ -167,7 +167,7 @@ def franka_panda():
     )
 
 
-def kawasaki_s030():
+def kawasaki_s030() -> Robot:
     """Kawasaki S030: 6R, spherical wrist, every twist angle 0 or +90 deg.
 
     Source: Robotics I exam, 17 June 2019, table 1; its speeds of joints 1 to 3, the wrist's are not given.
@@ -203,7 +203,7 @@ def kawasaki_s030():
     )
 
 
-def planar_2r(l1=0.5, l2=0.25):
+def planar_2r(l1: float = 0.5, l2: float = 0.25) -> Robot:
     """A planar arm with two hinges about z and links l1, l2 in metres. Source: the same exam, exercise 2.
 
     Raises ValueError where a length is not positive.
@@ -225,7 +225,7 @@ def planar_2r(l1=0.5, l2=0.25):
     )
 
 
-def puma560():
+def puma560() -> Robot:
     """PUMA 560: 6R, spherical wrist, 150 mm shoulder offset. Practice robot.
 
     Source: Corke's table as in robotics-toolbox-python, models.DH.Puma560.
@@ -255,7 +255,7 @@ def puma560():
     )
 
 
-def ur5():
+def ur5() -> Robot:
     """Universal Robots UR5: 6R, no spherical wrist, axes 2, 3 and 4 parallel. Practice robot.
 
     Source: robotics-toolbox-python, models.DH.UR5; limits of 360 deg and 180 deg/s from UR's own description.

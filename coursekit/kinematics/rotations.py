@@ -5,6 +5,7 @@ Where a representation is not unique (gimbal lock, half turn) one defined choice
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import checks
 
@@ -13,7 +14,7 @@ from . import checks
 GIMBAL = 1e-12
 
 
-def rotx(angle):
+def rotx(angle: ArrayLike) -> np.ndarray:
     """Turn about x. angle (...) rad -> R (..., 3, 3). Source: Lynch & Park, eq. 3.31.
 
     >>> rotx(np.pi / 2).round(12).tolist()
@@ -22,7 +23,7 @@ def rotx(angle):
     return _turn(angle, 1, 2)
 
 
-def roty(angle):
+def roty(angle: ArrayLike) -> np.ndarray:
     """Turn about y. angle (...) rad -> R (..., 3, 3).
 
     >>> roty(np.pi / 2).round(12).tolist()
@@ -31,7 +32,7 @@ def roty(angle):
     return _turn(angle, 2, 0)
 
 
-def rotz(angle):
+def rotz(angle: ArrayLike) -> np.ndarray:
     """Turn about z. angle (...) rad -> R (..., 3, 3).
 
     >>> rotz(np.pi / 2).round(12).tolist()
@@ -51,7 +52,7 @@ def _turn(angle, i, j):
     return R
 
 
-def quaternion(R):
+def quaternion(R: ArrayLike) -> np.ndarray:
     """Unit quaternion (w, x, y, z) of a rotation. R (..., 3, 3) -> (..., 4), w >= 0.
 
     The symmetric matrix 4 q q' can be written with sums and differences of the entries of R. Each of its rows
@@ -86,7 +87,7 @@ def _sign_of_first(q):
     return np.where(np.take_along_axis(q, first, axis=-1)[..., 0] < 0, -1.0, 1.0)
 
 
-def from_quaternion(q):
+def from_quaternion(q: ArrayLike) -> np.ndarray:
     """Rotation of a quaternion (w, x, y, z). q (..., 4), any length but 0 -> R (..., 3, 3).
 
     Raises ValueError for a quaternion of length 0: it has no direction.
@@ -108,7 +109,7 @@ def from_quaternion(q):
     )
 
 
-def zyx(R):
+def zyx(R: ArrayLike) -> np.ndarray:
     """(yaw, pitch, roll) of R = rotz(yaw) roty(pitch) rotx(roll). R (..., 3, 3) -> (..., 3) rad.
 
     pitch in [-pi/2, pi/2], yaw and roll in (-pi, pi]. In gimbal lock (pitch = +-pi/2) only yaw -+ roll is
@@ -129,7 +130,7 @@ def zyx(R):
     return np.stack([yaw, pitch, roll], axis=-1)
 
 
-def from_zyx(angles):
+def from_zyx(angles: ArrayLike) -> np.ndarray:
     """R = rotz(yaw) roty(pitch) rotx(roll). angles (..., 3) = (yaw, pitch, roll) rad -> R (..., 3, 3).
 
     >>> zyx(from_zyx([0.3, -0.2, 0.1])).round(12).tolist()
@@ -139,7 +140,7 @@ def from_zyx(angles):
     return rotz(yaw) @ roty(pitch) @ rotx(roll)
 
 
-def xyx(R):
+def xyx(R: ArrayLike) -> np.ndarray:
     """(a, b, c) of R = rotx(a) roty(b) rotx(c), b in [0, pi]. R (..., 3, 3) -> (..., 3) rad.
 
     The angles of a spherical wrist whose axes are x, y, x. Where b is 0 or pi only a +- c is defined: c is
@@ -161,7 +162,7 @@ def xyx(R):
     return np.stack([a, b, c], axis=-1)
 
 
-def from_xyx(angles):
+def from_xyx(angles: ArrayLike) -> np.ndarray:
     """R = rotx(a) roty(b) rotx(c). angles (..., 3) = (a, b, c) rad -> R (..., 3, 3).
 
     >>> xyx(from_xyx([0.3, 0.6, -0.1])).round(12).tolist()

@@ -3,6 +3,8 @@
 `Robot` keeps what is computed here, once per arm: constants of exponentials, steps between axes, slides.
 """
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from . import dh, lie
@@ -10,7 +12,7 @@ from . import dh, lie
 UNIT = 1e-9  # how far from 1 the direction of a screw may be
 
 
-def joint_types(S, given, name):
+def joint_types(S: np.ndarray, given: Iterable[str] | None, name: str) -> tuple[str, ...]:
     """Joint types that the screws S (6, n) themselves say, n words; `given` (or None) must agree.
 
     Raises ValueError, which names the robot, for a screw without a direction, one that is not of unit length,
@@ -30,7 +32,7 @@ def joint_types(S, given, name):
     return said
 
 
-def exponential_constants(s):
+def exponential_constants(s: np.ndarray) -> np.ndarray:
     """K (4, 4, 4) with e^[s]t = K[0] + sin t K[1] + cos t K[2] + t K[3], for any unit screw s.
 
     Rodrigues' formula e^[s]t = I + sin t [s] + (1 - cos t) [s]^2 + (t - sin t) ([s] + [s]^3), ordered by what
@@ -41,7 +43,7 @@ def exponential_constants(s):
     return np.array([np.eye(4) + X @ X, X - along, -X @ X, along])
 
 
-def frames_on(S):
+def frames_on(S: np.ndarray) -> np.ndarray:
     """A frame on every axis at zero: z along it, its origin nearest the one before. (6, n) -> (n, 4, 4)."""
     frames, origin = np.tile(np.eye(4), (S.shape[1], 1, 1)), np.zeros(3)
     for frame, s in zip(frames, S.T, strict=True):
@@ -53,7 +55,7 @@ def frames_on(S):
     return frames
 
 
-def steps_along(S):
+def steps_along(S: np.ndarray) -> np.ndarray:
     """Pose of a frame on each axis (z along it) in the frame on the axis before, at theta = 0. (n, 4, 4)."""
     frames = np.tile(np.eye(4), (S.shape[1] + 1, 1, 1))  # the first is the space frame
     for frame, s in zip(frames[1:], S.T, strict=True):
@@ -62,13 +64,13 @@ def steps_along(S):
     return lie.inverse(frames[:-1]) @ frames[1:]
 
 
-def slide(s):
+def slide(s: np.ndarray) -> float:
     """How far a joint slides along its axis per radian or metre: 0 for a hinge, 1 for a prismatic joint."""
     pitch = s[:3] @ s[3:] if np.any(s[:3]) else 1.0
     return pitch if abs(pitch) > UNIT else 0.0
 
 
-def frame_along(w):
+def frame_along(w: np.ndarray) -> np.ndarray:
     """A rotation whose z is w, x as near to the x (or, failing that, the y) of the space frame as can be."""
     x = np.array([1.0, 0, 0]) if abs(w[0]) < 0.9 else np.array([0, 1.0, 0])
     x = x - w * (w @ x)
@@ -76,12 +78,12 @@ def frame_along(w):
     return np.stack([x, np.cross(w, x), w], axis=-1)
 
 
-def cross(a, b):
+def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """a x b over the first axis: np.cross with less ceremony (it costs 15 us a call)."""
     return np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
 
 
-def moved(theta, kinds, steps, slides):
+def moved(theta: np.ndarray, kinds: tuple[str, ...], steps: np.ndarray, slides: np.ndarray) -> np.ndarray:
     """Every screw where the arm has carried it. theta (n, N) -> (6, n, N): batch last is fast.
 
     kinds: the joint types; steps: `steps_along(S)`; slides: `slide` of every screw.
@@ -101,10 +103,10 @@ def moved(theta, kinds, steps, slides):
         if slides[i]:
             frame[3] += slides[i] * theta[i] * z[:, i]
     J[3:] = cross(o, z)
-    for i in np.flatnonzero(slides):  # a slide: (0; z); a screw of pitch h: (z; o x z + h z)
-        along = slides[i] * z[:, i]
-        if kinds[i] == "revolute":
-            J[3:, i] += along
+    for j in np.flatnonzero(slides):  # a slide: (0; z); a screw of pitch h: (z; o x z + h z)
+        along = slides[j] * z[:, j]
+        if kinds[j] == "revolute":
+            J[3:, j] += along
         else:
-            J[3:, i], J[:3, i] = along, 0
+            J[3:, j], J[:3, j] = along, 0
     return J

@@ -20,15 +20,17 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import checks
 from .jacobians import left_singular
+from .robot import Robot
 
 NAMES = ("wrist", "elbow", "shoulder")
 GEOMETRY = 1e-9  # parallel, or meeting in a point, within this (sine of an angle, metres)
 
 
-def determinant(robot, theta):
+def determinant(robot: Robot, theta: ArrayLike) -> np.ndarray:
     """det J_b, rows (omega; v), the same for J_s and for every tool. theta (..., 6) -> (...).
 
     In metres cubed. The order (v; omega) would change its sign. Raises ValueError where the arm has no square
@@ -48,7 +50,7 @@ def determinant(robot, theta):
     return math.prod(sinusoid.value(theta) for sinusoid in split.values())
 
 
-def factors(robot, theta):
+def factors(robot: Robot, theta: ArrayLike) -> dict[str, np.ndarray]:
     """The three factors of det J_b. theta (..., 6) -> {"wrist": (...), "elbow": (...), "shoulder": (...)}.
 
     Their product is the determinant. wrist is a sine, elbow an area in m^2, shoulder a length in m; the signs
@@ -63,7 +65,7 @@ def factors(robot, theta):
     return {name: sinusoid.value(theta) for name, sinusoid in _split_or_error(robot).items()}
 
 
-def relative_factors(robot, theta):
+def relative_factors(robot: Robot, theta: ArrayLike) -> dict[str, np.ndarray]:
     """The factors, each over a bound on its size: free of scale, between -1 and 1. Shapes as factors.
 
     wrist and elbow become the sine of the angle to the singular pose; shoulder becomes the distance of c from
@@ -78,7 +80,7 @@ def relative_factors(robot, theta):
     return {name: sinusoid.value(theta) / sinusoid.bound for name, sinusoid in _split_or_error(robot).items()}
 
 
-def classify(robot, theta, tol=1e-6):
+def classify(robot: Robot, theta: ArrayLike, tol: float = 1e-6) -> tuple[str, ...]:
     """Names of the singularities at one configuration. theta (6,) -> some of "wrist", "elbow", "shoulder".
 
     A name is given where the size of its relative factor is at most tol (1e-6: about a millionth of a
@@ -92,7 +94,7 @@ def classify(robot, theta, tol=1e-6):
     return tuple(name for name, value in relative_factors(robot, theta).items() if abs(value) <= tol)
 
 
-def aligned(robot, theta, tol=1e-6):
+def aligned(robot: Robot, theta: ArrayLike, tol: float = 1e-6) -> np.ndarray:
     """Whether the first and the last axis are one line: "alignment", a special shoulder singularity.
 
     theta (..., n) -> bool (...). The two screws are then equal up to sign; tol bounds each component of their
@@ -109,7 +111,7 @@ def aligned(robot, theta, tol=1e-6):
     return apart <= tol
 
 
-def sigma_min(robot, theta):
+def sigma_min(robot: Robot, theta: ArrayLike) -> np.ndarray:
     """Smallest singular value of J_b, metres and radians. theta (..., n) -> (...).
 
     0 at a singular pose. It mixes units: compare it along a path of one robot, not between robots.
@@ -121,7 +123,7 @@ def sigma_min(robot, theta):
     return left_singular(robot.jacobian_body(theta))[1][..., -1]
 
 
-def rank(robot, theta, tol=1e-9):
+def rank(robot: Robot, theta: ArrayLike, tol: float = 1e-9) -> np.ndarray:
     """How many independent motions there are: singular values of J_b above tol. theta (..., n) -> int (...).
 
     >>> from coursekit import robots
@@ -131,7 +133,7 @@ def rank(robot, theta, tol=1e-9):
     return (left_singular(robot.jacobian_body(theta))[1] > tol).sum(axis=-1)
 
 
-def lost_motion(robot, theta):
+def lost_motion(robot: Robot, theta: ArrayLike) -> np.ndarray:
     """The twist that joint rates give least, at a singular pose not at all. theta (..., n) -> (..., 6).
 
     (omega; v) in the space frame, of length 1, its largest component positive: the left singular vector of
@@ -151,7 +153,7 @@ def lost_motion(robot, theta):
     return left_singular(robot.jacobian_space(theta))[0][..., :, -1]
 
 
-def lost_motions(robot, theta, tol=1e-9):
+def lost_motions(robot: Robot, theta: ArrayLike, tol: float = 1e-9) -> np.ndarray:
     """Every direction that is lost at one configuration. theta (n,) -> (6 - rank, 6), rows as in lost_motion.
 
     >>> from coursekit import robots
@@ -175,7 +177,7 @@ class Wrench:
     pitch: np.ndarray
 
 
-def lost_wrench(robot, theta):
+def lost_wrench(robot: Robot, theta: ArrayLike) -> Wrench:
     """The load that no joint feels at a singular pose. theta (..., n) -> Wrench in the space frame.
 
     A twist V is lost when J_s^T V = 0. Read as a wrench (moment; force), the same six numbers press on no

@@ -8,10 +8,14 @@ subproblems 1 to 3; RPI mini project 3 (2021) for subproblem 4. None of them ret
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import checks
 
 __all__ = ["subproblem1", "subproblem2", "subproblem3", "subproblem4"]
+
+Number = float | np.ndarray
+Pair = tuple[Number, Number]  # (cos, sin) of an angle, or a vector of a plane
 
 # a cos t + b sin t = c has no root where |c| > sqrt(a^2 + b^2). A pose exactly at the end of the reach must
 # keep its double root in spite of rounding, so the edge is this much wider, as a fraction of sqrt(a^2 + b^2).
@@ -20,7 +24,7 @@ NOTHING = 1e-12  # m; a vector shorter than this has no direction: every angle i
 MISS = 1e-9  # how far two lengths may differ (relative) for subproblems 1 and 2 to call them equal
 
 
-def subproblem1(k, x, y):
+def subproblem1(k: ArrayLike, x: ArrayLike, y: ArrayLike) -> np.ndarray:
     """The turn about k that carries x to y: rot(k, t) x = y. k, x, y (..., 3) -> t (...) rad in (-pi, pi].
 
     With x' and y' for the parts across the axis: cos t is along x' . y', sin t along k . (x' cross y').
@@ -39,7 +43,7 @@ def subproblem1(k, x, y):
     return np.where(same_height & same_distance, t, np.nan)
 
 
-def subproblem2(k1, k2, x, y):
+def subproblem2(k1: ArrayLike, k2: ArrayLike, x: ArrayLike, y: ArrayLike) -> np.ndarray:
     """The turns with rot(k1, t1) rot(k2, t2) x = y, for two axes that meet in the origin. -> (..., 2, 2) rad.
 
     Row i is the solution (t1, t2) number i. In between, the point is z = rot(k2, t2) x = rot(k1, -t1) y:
@@ -71,7 +75,7 @@ def subproblem2(k1, k2, x, y):
     return np.stack(solutions, axis=-2)
 
 
-def subproblem3(k, x, y, distance):
+def subproblem3(k: ArrayLike, x: ArrayLike, y: ArrayLike, distance: ArrayLike) -> np.ndarray:
     """The turns about k that bring x to a distance from y: |y - rot(k, t) x| = distance. -> (..., 2) rad.
 
     Squared, it is subproblem 4: y . rot(k, t) x = (|x|^2 + |y|^2 - distance^2) / 2. The law of cosines is the
@@ -85,7 +89,7 @@ def subproblem3(k, x, y, distance):
     return subproblem4(y, k, x, 0.5 * (_dot(x, x) + _dot(y, y) - distance**2))
 
 
-def subproblem4(h, k, x, d):
+def subproblem4(h: ArrayLike, k: ArrayLike, x: ArrayLike, d: ArrayLike) -> np.ndarray:
     """The turns about k that bring x to a plane: h . rot(k, t) x = d. h, k, x (..., 3) -> (..., 2) rad.
 
     With Rodrigues' formula: a cos t + b sin t = d - (h . k)(k . x), where a = h . x - (h . k)(k . x) and
@@ -105,7 +109,7 @@ def subproblem4(h, k, x, d):
 # -- in the plane: angles are carried as (cos, sin), so that no inverse trigonometric function is needed ---
 
 
-def unit(c, s):
+def unit(c: np.ndarray, s: np.ndarray) -> Pair:
     """(c, s) scaled to length 1: the cosine and sine of its direction, (1, 0) where it has none."""
     length = np.sqrt(c * c + s * s)
     none = length < NOTHING
@@ -115,7 +119,7 @@ def unit(c, s):
     return c / length, s / length
 
 
-def swing(a, b, c, sign):
+def swing(a: Number, b: Number, c: Number, sign: Number) -> Pair:
     """(cos t, sin t) of a root of a cos t + b sin t = c: t = atan2(b, a) + sign acos(c / r), r^2 = a^2 + b^2.
 
     sign: -1 or +1. NaN where |c| > r (beyond EDGE). Where a = b = c = 0 every t is right and 0 is taken.
@@ -135,25 +139,25 @@ def _root(square, scale):
         return np.where(square < -2 * EDGE * scale, np.nan, np.sqrt(np.maximum(square, 0)))
 
 
-def turn(cs, x, y):
+def turn(cs: Pair, x: Number, y: Number) -> Pair:
     """The vector (x, y) of a plane, turned by the angle cs = (cos, sin). Two angles: turn(a, *b) is a + b."""
     c, s = cs
     return c * x - s * y, s * x + c * y
 
 
-def undo(cs):
+def undo(cs: Pair) -> Pair:
     """The opposite angle."""
     return cs[0], -cs[1]
 
 
-def angle(cs):
+def angle(cs: Pair) -> np.ndarray:
     """The angle in (-pi, pi] of (cos, sin)."""
     t = np.arctan2(cs[1] + 0.0, cs[0])  # + 0.0: no -0, neither here nor in the angle
     other_end = t == -np.pi
     return np.where(other_end, np.pi, t) if other_end.any() else t
 
 
-def _vectors(**named):
+def _vectors(**named: ArrayLike) -> list[np.ndarray]:
     """The arguments as float arrays (..., 3), or a ValueError that names the wrong one."""
     return [checks.array(value, (3,), name) for name, value in named.items()]
 

@@ -5,12 +5,15 @@ Nothing here takes more than seconds, because nothing large is ever simplified: 
 centre and in the frame of link 3, where theta_2 + theta_3 stays one argument and half of the entries are 0.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 import sympy as sp
 
+from .robot import Robot
 from .symbolic_matrices import (
+    Scalar,
     adjoint,
     dh_matrix,
     half_steps,
@@ -61,26 +64,28 @@ class Arm:
     """
 
     name: str
-    theta: tuple
+    theta: tuple[sp.Symbol, ...]
     S: sp.Matrix
     M: sp.Matrix
-    A: tuple
+    A: tuple[sp.Matrix, ...]
     base: sp.Matrix
     tool: sp.Matrix
-    lengths: dict
+    lengths: dict[sp.Symbol, sp.Rational]
 
     @property
-    def B(self):
+    def B(self) -> sp.Matrix:
         """Body screws (6, n): Ad(M^-1) S."""
         return adjoint(inverse(self.M)) * self.S
 
-    def numbers(self, expression, theta=None):
+    def numbers(
+        self, expression: sp.Expr | sp.Matrix, theta: Iterable[Scalar] | None = None
+    ) -> sp.Expr | sp.Matrix:
         """The expression with metres for the lengths, and with the joint angles where they are given."""
         angles = {} if theta is None else dict(zip(self.theta, theta, strict=True))
         return expression.subs({**self.lengths, **angles})
 
 
-def arm(robot):
+def arm(robot: Robot) -> Arm:
     """A `Robot` in symbols: its standard DH table with a_i and d_i for every length that is not 0.
 
     Symbols are positive lengths, signs stand in front of them. A tool that is only moved along z continues
@@ -91,7 +96,8 @@ def arm(robot):
     >>> kr6.S[:, 1].T, kr6.M[:3, 3].T
     (Matrix([[0, 1, 0, -d_1, 0, a_1]]), Matrix([[a_1 + a_2 + d_4 + d_6, 0, a_3 + d_1]]))
     """
-    n, lengths = robot.n, {}
+    n = robot.n
+    lengths: dict[sp.Symbol, sp.Rational] = {}
     theta = sp.symbols(f"theta_1:{n + 1}", real=True)
     table = robot.standard_dh
     if table is None:
@@ -122,7 +128,7 @@ def arm(robot):
     return Arm(robot.name, theta, S, T * tool, tuple(A), base, tool, lengths)
 
 
-def fk(arm):
+def fk(arm: Arm) -> sp.Matrix:
     """T(theta) = e^[S_1]theta_1 ... e^[S_n]theta_n M, with the angles of parallel neighbours added.
 
     >>> from coursekit import robots
@@ -133,7 +139,7 @@ def fk(arm):
     return pose(R * arm.M[:3, :3], o + R * (arm.M[:3, 3] - q))
 
 
-def jacobian(arm):
+def jacobian(arm: Arm) -> sp.Matrix:
     """The space Jacobian (6, n): column i is (w_i; -w_i x o_i) of the moved axis, or (0; v_i) of a slide.
 
     >>> from coursekit import robots
@@ -174,7 +180,7 @@ def _along(arm):
 # -- singularities -------------------------------------------------------------------------------------
 
 
-def wrist_center(arm):
+def wrist_center(arm: Arm) -> sp.Matrix:
     """P(theta): where axes 4, 5 and 6 meet, in the space frame. A (3, 1) Matrix.
 
     Raises ValueError where they do not meet in one point or axes 2 and 3 are not parallel. Robotics I exam,
@@ -190,7 +196,7 @@ def wrist_center(arm):
     return q[0] + R1 * (q[1] - q[0] + R2 * (q[2] - q[1]) + R23 * (c - q[2]))
 
 
-def wrist_jacobian(arm):
+def wrist_jacobian(arm: Arm) -> sp.Matrix:
     """J with the wrist centre as reference point, along the axes of link 3. A (6, 6) Matrix, rows (omega; v).
 
     Nobody looks for singularities in the base frame twice: there det J is the same number in a thousand
@@ -222,7 +228,7 @@ def wrist_jacobian(arm):
     return sp.Matrix.vstack(sp.Matrix.hstack(*omega), sp.Matrix.hstack(*v, *[sp.zeros(3, 1)] * 3))
 
 
-def factors(arm):
+def factors(arm: Arm) -> dict[str, sp.Expr]:
     """det J in its three factors, {"wrist", "elbow", "shoulder"}: the expressions behind singularity.factors.
 
     With J at the wrist centre, det J = -det J_12 det J_21 (3 x 3 blocks). wrist is -det J_12; elbow and
@@ -246,7 +252,7 @@ def factors(arm):
     }
 
 
-def determinant(arm):
+def determinant(arm: Arm) -> sp.Expr:
     """det J (of J_s and of J_b with any tool) as the product of its factors.
 
     >>> from coursekit import robots

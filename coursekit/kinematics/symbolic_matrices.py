@@ -1,9 +1,14 @@
 """The matrices of kinematics in sympy: turns, poses, adjoints, e^[S]theta and DH links, all exact."""
 
+from collections.abc import Iterable
+from typing import TypeAlias
+
 import sympy as sp
 
+Scalar: TypeAlias = sp.Expr | float
 
-def rotx(angle):
+
+def rotx(angle: Scalar) -> sp.Matrix:
     """Turn about x, a (3, 3) Matrix.
 
     >>> rotx(sp.pi / 2)
@@ -16,7 +21,7 @@ def rotx(angle):
     return sp.Matrix([[1, 0, 0], [0, c, -s], [0, s, c]])
 
 
-def roty(angle):
+def roty(angle: Scalar) -> sp.Matrix:
     """Turn about y, a (3, 3) Matrix.
 
     >>> roty(sp.pi / 2)[:, 0].T
@@ -26,7 +31,7 @@ def roty(angle):
     return sp.Matrix([[c, 0, s], [0, 1, 0], [-s, 0, c]])
 
 
-def rotz(angle):
+def rotz(angle: Scalar) -> sp.Matrix:
     """Turn about z, a (3, 3) Matrix.
 
     >>> rotz(sp.pi / 2)[:, 0].T
@@ -36,7 +41,7 @@ def rotz(angle):
     return sp.Matrix([[c, -s, 0], [s, c, 0], [0, 0, 1]])
 
 
-def xyx(a, b, c):
+def xyx(a: Scalar, b: Scalar, c: Scalar) -> sp.Matrix:
     """R_x(a) R_y(b) R_x(c): a wrist whose axes are x, y, x. TPK4170 report 2021, eq. 4.17.
 
     >>> a, b, c = sp.symbols("a b c")
@@ -46,7 +51,7 @@ def xyx(a, b, c):
     return rotx(a) * roty(b) * rotx(c)
 
 
-def pose(R=None, p=(0, 0, 0)):
+def pose(R: sp.Matrix | None = None, p: Iterable[Scalar] = (0, 0, 0)) -> sp.Matrix:
     """The (4, 4) Matrix of a rotation and a position.
 
     >>> pose(p=(1, 2, 3))[:3, 3].T
@@ -58,7 +63,7 @@ def pose(R=None, p=(0, 0, 0)):
     return T
 
 
-def inverse(T):
+def inverse(T: sp.Matrix) -> sp.Matrix:
     """T^-1 = [[R', -R' p], [0, 1]], (4, 4).
 
     >>> inverse(pose(rotz(sp.pi / 2), (1, 2, 3)))[:3, 3].T
@@ -68,7 +73,7 @@ def inverse(T):
     return pose(R.T, -R.T * p)
 
 
-def adjoint(T):
+def adjoint(T: sp.Matrix) -> sp.Matrix:
     """[Ad_T] = [[R, 0], [[p] R, R]] for twists (omega; v), a (6, 6) Matrix.
 
     >>> (adjoint(pose(p=(0, 2, 0))) * sp.Matrix([0, 0, 1, 0, 0, 0])).T
@@ -78,7 +83,7 @@ def adjoint(T):
     return sp.Matrix(sp.BlockMatrix([[R, sp.zeros(3, 3)], [hat3(p) * R, R]]))
 
 
-def hat3(w):
+def hat3(w: Iterable[Scalar]) -> sp.Matrix:
     """[w]: the matrix with [w] x = w cross x, (3, 3).
 
     >>> hat3([1, 2, 3]) * sp.Matrix([0, 0, 1])
@@ -91,7 +96,7 @@ def hat3(w):
     return sp.Matrix([[0, -z, y], [z, 0, -x], [-y, x, 0]])
 
 
-def screw_exp(S, theta):
+def screw_exp(S: Iterable[Scalar], theta: Scalar) -> sp.Matrix:
     """e^[S]theta of a unit screw S = (omega; v), a hinge or a slide: a (4, 4) Matrix.
 
     R = I + sin(theta) [w] + (1 - cos(theta)) [w]^2 and
@@ -101,16 +106,16 @@ def screw_exp(S, theta):
     >>> screw_exp([0, 0, 1, 0, -l, 0], t)[:2, 3].T
     Matrix([[l*(1 - cos(theta)), -l*sin(theta)]])
     """
-    S = sp.Matrix(S)
-    W, v = hat3(S[:3]), sp.Matrix(S[3:])
+    screw = sp.Matrix(S)
+    W, v = hat3(screw[:3]), sp.Matrix(screw[3:])
     sine, versine = sp.sin(theta), 1 - sp.cos(theta)
     R = sp.eye(3) + sine * W + versine * W**2
     p = (theta * sp.eye(3) + versine * W + (theta - sine) * W**2) * v
     # What is left of theta itself (a hinge has no term in it) cancels when the entry is expanded.
-    return pose(R.applyfunc(sp.expand), p.applyfunc(lambda e: sp.collect(sp.expand(e), S.free_symbols)))
+    return pose(R.applyfunc(sp.expand), p.applyfunc(lambda e: sp.collect(sp.expand(e), screw.free_symbols)))
 
 
-def half_steps(a, alpha, d, theta):
+def half_steps(a: Scalar, alpha: Scalar, d: Scalar, theta: Scalar) -> tuple[sp.Matrix, sp.Matrix]:
     """The two halves of a DH link: about and along z, then about and along x. Two (4, 4) Matrices.
 
     TPK4170 report 2021, eqs. 2.2 and 2.3.
@@ -122,7 +127,7 @@ def half_steps(a, alpha, d, theta):
     return pose(rotz(theta), (0, 0, d)), pose(rotx(alpha), (a, 0, 0))
 
 
-def dh_matrix(a, alpha, d, theta, convention="standard"):
+def dh_matrix(a: Scalar, alpha: Scalar, d: Scalar, theta: Scalar, convention: str = "standard") -> sp.Matrix:
     """A_i of one DH row. "standard": z then x; "modified": x then z, with a and alpha of the row before.
 
     Raises ValueError for another convention. Siciliano et al., eq. 2.52; Lynch & Park, appendix C.
@@ -137,7 +142,7 @@ def dh_matrix(a, alpha, d, theta, convention="standard"):
     return along_z * along_x if convention == "standard" else along_x * along_z
 
 
-def turn(w, angle):
+def turn(w: Iterable[Scalar], angle: Scalar) -> sp.Matrix:
     """Rotation about the unit vector w, (3, 3).
 
     >>> turn([0, 0, 1], sp.pi / 2)[:, 0].T

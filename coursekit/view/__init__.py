@@ -9,6 +9,7 @@ Everything here is imported when it is first used: `from coursekit import view` 
 """
 
 import importlib
+from typing import Any
 
 _WHERE = {
     "explore": "explorers.conventions",
@@ -35,7 +36,7 @@ _MODULES = ("controls", "panel", "page", "plots", "scene", "text", "viewer")
 __all__ = sorted([*_WHERE, *_MODULES])
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> Any:
     if name in _WHERE:
         return getattr(importlib.import_module(f"coursekit.view.{_WHERE[name]}"), name)
     if name in _MODULES:
@@ -43,5 +44,5 @@ def __getattr__(name):
     raise AttributeError(f"coursekit.view has no {name!r}; it has: {', '.join(__all__)}")
 
 
-def __dir__():
+def __dir__() -> list[str]:
     return __all__

@@ -7,6 +7,8 @@ Whatever turns against its neighbour is round about their axis, so a moving join
 
 import numpy as np
 
+from coursekit.kinematics.robot import Robot
+
 from .chain import chain
 from .paint import Part
 from .shapes import ball, bevelled, frame_along, loft
@@ -14,7 +16,7 @@ from .shapes import ball, bevelled, frame_along, loft
 ROUND, SQUARE = 2.0, 3.2  # squareness of a cross-section at a collar and at a drum
 
 
-def solid(robot):
+def solid(robot: Robot) -> list[list[Part]]:
     """Painted parts: n + 1 lists of Part, the base first.
 
     >>> from coursekit import robots
@@ -203,7 +205,7 @@ def _section(joint, collar, T):
 # --- the skeleton ---
 
 
-def skeleton(robot):
+def skeleton(robot: Robot) -> list[list[Part]]:
     """The lines behind the paint: n + 1 lists of Part. Link i has axis i and the stick to axis i + 1."""
     arm = chain(robot)
     r = 0.004 * arm.size

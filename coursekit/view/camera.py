@@ -1,6 +1,12 @@
 """Where the camera stands: far enough for the whole robot, whatever its size."""
 
 import numpy as np
+from numpy.typing import ArrayLike
+
+from coursekit.kinematics.robot import Robot
+
+from .chain import Chain
+from .paint import Part
 
 FOV = 32.0  # vertical angle of view, degrees
 ASPECT = 1.25  # width by height of a picture; the page steps back where it is narrower
@@ -13,7 +19,7 @@ STANDS = {
 }  # azimuth, elevation, degrees
 
 
-def views(low, high, size):
+def views(low: np.ndarray, high: np.ndarray, size: float) -> dict[str, dict[str, list[float]]]:
     """Stands from which the box low..high is seen: name -> {"position", "target"}, metres, z up.
 
     A box much smaller than the arm (a folded pose) does not bring the camera closer: arms unfold.
@@ -36,7 +42,9 @@ def views(low, high, size):
     return stands
 
 
-def extent(robot, theta, painted, chain):
+def extent(
+    robot: Robot, theta: ArrayLike, painted: list[list[Part]], chain: Chain
+) -> tuple[np.ndarray, np.ndarray]:
     """Corners low (3,), high (3,) of what a robot's painted parts fill at theta, with some room to move."""
     corners = []
     for T, parts in zip([np.eye(4), *robot.displacements(theta)], painted, strict=True):

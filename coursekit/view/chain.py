@@ -10,6 +10,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import ArrayLike
+
+from coursekit.kinematics.robot import Robot
 
 THICKEST, THINNEST = (
     0.078,
@@ -35,10 +38,10 @@ class Joint:
     radius: float = 0.0
     split: np.ndarray | None = None
     bends: bool = True
-    travel: tuple | None = None
+    travel: tuple[float, float] | None = None
 
     @property
-    def length(self):
+    def length(self) -> float:
         return float(np.linalg.norm(self.leave - self.enter))
 
 
@@ -48,12 +51,12 @@ class Chain:
 
     foot: np.ndarray
     up: np.ndarray
-    joints: list
+    joints: list[Joint]
     tool: np.ndarray
     size: float
 
 
-def chain(robot):
+def chain(robot: Robot) -> Chain:
     """The Chain of a Robot.
 
     >>> from coursekit import robots
@@ -75,7 +78,9 @@ def chain(robot):
     return Chain(foot, up, joints, tool, size)
 
 
-def common_normal(p, u, q, v):
+def common_normal(
+    p: ArrayLike, u: ArrayLike, q: ArrayLike, v: ArrayLike
+) -> tuple[np.ndarray, np.ndarray] | None:
     """Ends (3,), (3,) of the common normal of the lines p + s u and q + t v; None where they are parallel.
 
     >>> common_normal([0, 0, 0], [0, 0, 1], [1, 0, 2], [0, 1, 0])[1].tolist()

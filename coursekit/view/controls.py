@@ -8,11 +8,21 @@ its value back when it is first drawn: 0.4 becomes 0.39999..., and in "Run All" 
 later cell set.)
 """
 
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import anywidget
 import numpy as np
 import traitlets
+from numpy.typing import ArrayLike
+
+from coursekit.kinematics.robot import Robot
+
+if TYPE_CHECKING:
+    from coursekit.view.panel import Panel  # which imports this module
 
 _STATIC = Path(__file__).parent / "static"
 _SCRIPT = (_STATIC / "controls.js").read_text(encoding="utf-8")
@@ -26,23 +36,26 @@ class Control(anywidget.AnyWidget):
     _css = _STATIC / "controls.css"
     kind = traitlets.Unicode().tag(sync=True)
     label = traitlets.Unicode().tag(sync=True)
+    kind_name: str
+    value: Any
+    initial: Any  # what `reset` puts
 
-    def __init__(self, name, label=None, **traits):
+    def __init__(self, name: str, label: str | None = None, **traits: Any) -> None:
         self.name = name
         super().__init__(kind=type(self).kind_name, label=name if label is None else label, **traits)
 
-    def get(self):
+    def get(self) -> Any:
         """The value as an explorer's functions see it."""
         return self.value
 
-    def put(self, value):
+    def put(self, value: Any) -> None:
         """Set what `get` gives."""
         self.value = value
 
-    def reset(self):
+    def reset(self) -> None:
         self.put(self.initial)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"{type(self).__name__}({self.name}: {self.value})"
 
 
@@ -73,17 +86,35 @@ class Slider(Control):
     max = traitlets.Float().tag(sync=True)
     step = traitlets.Float().tag(sync=True)
     start = traitlets.Float().tag(sync=True)
-    limits = traitlets.List().tag(sync=True)
+    limits: traitlets.List = traitlets.List().tag(sync=True)
     unit = traitlets.Unicode().tag(sync=True)
     digits = traitlets.Int().tag(sync=True)
     shape = traitlets.Int(0).tag(sync=True)  # counts changes of everything but the value
 
-    def __init__(self, name, start=0.0, low=-1.0, high=1.0, unit="", step=None, limits=None, label=None):
+    def __init__(
+        self,
+        name: str,
+        start: float = 0.0,
+        low: float = -1.0,
+        high: float = 1.0,
+        unit: str = "",
+        step: float | None = None,
+        limits: tuple[float, float] | None = None,
+        label: str | None = None,
+    ) -> None:
         self._shown_per_si, self._exact = 1.0, (0.0, 0.0)
         super().__init__(name, label)
         self.fit(start, low, high, unit, step, limits)
 
-    def fit(self, start, low, high, unit="", step=None, limits=None):
+    def fit(
+        self,
+        start: float,
+        low: float,
+        high: float,
+        unit: str = "",
+        step: float | None = None,
+        limits: tuple[float, float] | None = None,
+    ) -> None:
         """Give the slider another range (as in the constructor) and put it at its start."""
         name = self.name
         if not low < high:
@@ -104,15 +135,15 @@ class Slider(Control):
         self._exact = (self.value, float(start))
 
     @property
-    def si(self):
+    def si(self) -> float:
         """The value in SI units; exactly what was `put`, as long as nobody moved the slider since."""
         shown, si = self._exact
         return si if self.value == shown else self.value / self._shown_per_si
 
-    def get(self):
+    def get(self) -> float:
         return self.si
 
-    def put(self, value):
+    def put(self, value: float) -> None:
         value = float(value)
         shown = self._shown(value)
         if not self.min - 1e-9 <= shown <= self.max + 1e-9:
@@ -129,18 +160,18 @@ class Slider(Control):
         low, high = self.min, self.max
         return float(np.clip(proposal["value"], low, high)) if low < high else proposal["value"]
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"{type(self).__name__}({self.name}: {np.round(self.value, 3) + 0:g} {self.unit})"
 
 
 class JointSlider(Slider):
     """The slider of one joint of a robot: its limits are the ends, degrees or millimetres its unit."""
 
-    def __init__(self, robot, joint, start=None):
+    def __init__(self, robot: Robot, joint: int, start: float | None = None) -> None:
         Control.__init__(self, f"theta{joint + 1}", f"\N{GREEK SMALL LETTER THETA}{joint + 1}")
         self.fit_joint(robot, joint, start)
 
-    def fit_joint(self, robot, joint, start=None):
+    def fit_joint(self, robot: Robot, joint: int, start: float | None = None) -> None:
         revolute = robot.joint_types[joint] == "revolute"
         free = np.pi if revolute else 1.0  # where the data sheet has no limit
         low, high = (float(limit[joint]) for limit in (robot.q_min, robot.q_max))
@@ -152,41 +183,45 @@ class JointSlider(Slider):
 class Sliders:
     """Several sliders whose values are one vector."""
 
-    def __init__(self, name, sliders):
+    def __init__(self, name: str, sliders: Iterable[Slider]) -> None:
         self.name = name
-        self.sliders = list(sliders)
+        self.sliders: Sequence[Slider] = list(sliders)
         self.count = len(self.sliders)  # those in use
 
     @property
-    def used(self):
+    def used(self) -> Sequence[Slider]:
         return self.sliders[: self.count]
 
-    def get(self):
+    def get(self) -> np.ndarray:
         return np.array([slider.get() for slider in self.used])
 
-    def put(self, values):
+    def put(self, values: ArrayLike) -> None:
         values = np.asarray(values, float)
         if values.shape != (self.count,):
             raise ValueError(f"{self.name!r} takes {self.count} numbers, got shape {values.shape}")
         for slider, value in zip(self.used, values, strict=True):
             slider.put(value)
 
-    def reset(self):
+    def reset(self) -> None:
         for slider in self.used:
             slider.reset()
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"{type(self).__name__}({self.name}: {self.count})"
 
 
 class JointSliders(Sliders):
     """One slider per joint; the value is theta (n,), in radians and metres."""
 
-    def __init__(self, robot, start=None, name="theta"):
+    sliders: Sequence[JointSlider]
+
+    def __init__(
+        self, robot: Robot, start: Sequence[float] | np.ndarray | None = None, name: str = "theta"
+    ) -> None:
         start = robot.home if start is None else start
         super().__init__(name, [JointSlider(robot, i, start[i]) for i in range(robot.n)])
 
-    def fit(self, robot):
+    def fit(self, robot: Robot) -> None:
         """Serve another robot, from its home pose. At most as many joints as sliders were made."""
         if robot.n > len(self.sliders):
             raise ValueError(f"{self.name!r} has {len(self.sliders)} sliders, {robot.name} needs {robot.n}")
@@ -197,7 +232,9 @@ class JointSliders(Sliders):
                 slider.fit_joint(robot, i)
 
 
-def joint_sliders(robot, start=None, name="theta"):
+def joint_sliders(
+    robot: Robot, start: Sequence[float] | np.ndarray | None = None, name: str = "theta"
+) -> JointSliders:
     """One slider per joint of a robot; the value is theta (n,), in radians and metres."""
     return JointSliders(robot, start, name)
 
@@ -215,9 +252,15 @@ class Choice(Control):
 
     kind_name = "choice"
     value = traitlets.Unicode().tag(sync=True)
-    options = traitlets.List().tag(sync=True)
+    options: traitlets.List = traitlets.List().tag(sync=True)
 
-    def __init__(self, name, options, start=None, label=None):
+    def __init__(
+        self,
+        name: str,
+        options: Iterable[str] | dict[str, Any],
+        start: str | None = None,
+        label: str | None = None,
+    ) -> None:
         self.meaning = dict(options) if isinstance(options, dict) else {text: text for text in options}
         labels = list(self.meaning)
         self.initial = labels[0] if start is None else start
@@ -225,15 +268,15 @@ class Choice(Control):
             raise ValueError(f"choice {name!r} has no {start!r}; it has: {', '.join(labels)}")
         super().__init__(name, label, options=labels, value=self.initial)
 
-    def get(self):
+    def get(self) -> Any:
         return self.meaning[self.value]
 
-    def put(self, value):
+    def put(self, value: Any) -> None:
         if value not in self.meaning:
             raise ValueError(f"choice {self.name!r} has no {value!r}; it has: {', '.join(self.meaning)}")
         self.value = value
 
-    def reset(self):
+    def reset(self) -> None:
         pass  # what was chosen stays chosen: reset moves the arm back, it does not change the arm
 
 
@@ -243,7 +286,7 @@ class Toggle(Control):
     kind_name = "toggle"
     value = traitlets.Bool().tag(sync=True)
 
-    def __init__(self, name, label=None, start=False):
+    def __init__(self, name: str, label: str | None = None, start: bool = False) -> None:
         self.initial = bool(start)
         super().__init__(name, label, value=self.initial)
 
@@ -253,20 +296,22 @@ class Action(Control):
 
     kind_name = "action"
 
-    def __init__(self, name, label=None, act=None):
+    def __init__(
+        self, name: str, label: str | None = None, act: Callable[[Panel], None] | None = None
+    ) -> None:
         self.act = act
         super().__init__(name, label)
 
-    def get(self):
+    def get(self) -> None:
         return None
 
-    def put(self, value):
+    def put(self, value: Any) -> None:
         raise ValueError(f"action {self.name!r} holds no value")
 
-    def reset(self):
+    def reset(self) -> None:
         pass
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Action({self.name})"
 
 
@@ -278,22 +323,29 @@ class Table(Control):
 
     kind_name = "table"
     value = traitlets.Int(-1).tag(sync=True)
-    header = traitlets.List().tag(sync=True)
-    rows = traitlets.List().tag(sync=True)
+    header: traitlets.List = traitlets.List().tag(sync=True)
+    rows: traitlets.List = traitlets.List().tag(sync=True)
     selectable = traitlets.Bool(False).tag(sync=True)
 
-    def __init__(self, name, fill, label=None, selectable=False, start=-1):
+    def __init__(
+        self,
+        name: str,
+        fill: Callable[[dict], tuple[Sequence, Sequence[Sequence]]],
+        label: str | None = None,
+        selectable: bool = False,
+        start: int = -1,
+    ) -> None:
         self.fill = fill
         self.initial = start
         super().__init__(name, label, selectable=selectable, value=start)
 
-    def refresh(self, values):
+    def refresh(self, values: dict) -> None:
         header, rows = self.fill(values)
         with self.hold_sync():
             self.header = [str(cell) for cell in header]
             self.rows = [[str(cell) for cell in row] for row in rows]
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Table({self.name}: {len(self.rows)} rows)"
 
 
@@ -303,5 +355,5 @@ class TextLine(Control):
     kind_name = "text"
     value = traitlets.Unicode().tag(sync=True)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"TextLine({self.value.splitlines()[0] if self.value else ''})"

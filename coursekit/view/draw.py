@@ -1,20 +1,24 @@
 """Single drawings, each a list of parts (and of labels): frames, screw axes, arrows, curves, ellipsoids."""
 
+from collections.abc import Iterable
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .paint import Part
 from .shapes import arrow as arrow_profile
 from .shapes import ball, frame_along, plate, tube
 
-_WIRE = {"glow": 0.3, "casts": False}
+Drawing = tuple[list[Part], list[dict]]  # what is drawn, and its labels
+
+_WIRE: dict = {"glow": 0.3, "casts": False}
 
 
-def frame(size, letter=""):
+def frame(size: float, letter: str = "") -> Drawing:
     """x, y, z as arrows from the origin with their letters, and the frame's own in braces above z."""
     shape = arrow_profile(size, 0.03 * size)
-    look = {"glow": 0.25, "xray": 0.45, "casts": False, "segments": 16}
+    look: dict = {"glow": 0.25, "xray": 0.45, "casts": False, "segments": 16}
     parts = [
         Part(shape, name, frame_along(axis), **look) for name, axis in zip("xyz", np.eye(3), strict=True)
     ]
@@ -25,7 +29,15 @@ def frame(size, letter=""):
     return parts, labels
 
 
-def screw_axis(S, theta, label, at, length, radius, color):
+def screw_axis(
+    S: ArrayLike,
+    theta: float | None,
+    label: str,
+    at: ArrayLike | None,
+    length: float,
+    radius: float,
+    color: str | int,
+) -> Drawing:
     """The line of a screw, starting near `at`; an arc with a tip shows which way it turns."""
     S = np.asarray(S, float)
     w, v = S[:3], S[3:]
@@ -48,7 +60,14 @@ def screw_axis(S, theta, label, at, length, radius, color):
     return parts, labels
 
 
-def arrow(start, vector, color, label="", radius=0.005, cls="note"):
+def arrow(
+    start: ArrayLike,
+    vector: ArrayLike,
+    color: str | int,
+    label: str = "",
+    radius: float = 0.005,
+    cls: str = "note",
+) -> Drawing:
     """An arrow with its label beyond the tip."""
     start, vector = np.asarray(start, float), np.asarray(vector, float)
     length = float(np.linalg.norm(vector))
@@ -60,7 +79,7 @@ def arrow(start, vector, color, label="", radius=0.005, cls="note"):
     return [part], [_label(tip, label, cls)] if label else []
 
 
-def line(a, b, color, label="", radius=0.003):
+def line(a: ArrayLike, b: ArrayLike, color: str | int, label: str = "", radius: float = 0.003) -> Drawing:
     """A straight rod with its label at the middle."""
     a, b = np.asarray(a, float), np.asarray(b, float)
     length = float(np.linalg.norm(b - a))
@@ -71,7 +90,7 @@ def line(a, b, color, label="", radius=0.003):
     return [part], [_label((a + b) / 2, label, "note")] if label else []
 
 
-def curve(points, color, radius, most=240):
+def curve(points: ArrayLike, color: str | int, radius: float, most: int = 240) -> list[Part]:
     """A wire; of a very fine curve only `most` points are drawn."""
     points = np.asarray(points, float)
     if points.ndim != 2 or points.shape[1] != 3 or len(points) < 2:
@@ -80,21 +99,23 @@ def curve(points, color, radius, most=240):
     return [Part(tube(points[chosen], radius), color, glow=0.35)]
 
 
-def point(p, label, color, radius):
+def point(p: ArrayLike, label: str, color: str | int, radius: float) -> Drawing:
     """A ball, its label above."""
     p = np.asarray(p, float)
     part = Part(ball(radius), color, frame_along([0, 0, 1], p), segments=16, glow=0.35)
     return [part], [_label(p + [0, 0, 3 * radius], label, "note")] if label else []
 
 
-def normals(points, vectors, color, radius):
+def normals(
+    points: Iterable[ArrayLike], vectors: Iterable[ArrayLike], color: str | int, radius: float
+) -> list[Part]:
     """Thin arrows, all in one."""
     return [
         part for p, v in zip(points, vectors, strict=True) for part in arrow(p, v, color, radius=radius)[0]
     ]
 
 
-def plane(center, normal, size, color):
+def plane(center: ArrayLike, normal: ArrayLike, size: float, color: str | int) -> list[Part]:
     """A translucent square with a rim."""
     T = frame_along(normal, center)
     corners = plate(size).vertices[[0, 1, 2, 3, 0]]
@@ -102,21 +123,40 @@ def plane(center, normal, size, color):
     return [Part(plate(size), color, T, opacity=0.3, order=5), *(part.placed(T) for part in rim)]
 
 
-def ellipsoid(axes, lengths, at, color, opacity, wire=0.0):
-    """A translucent ellipsoid; `wire` is the radius of the rods along its axes, 0 for none."""
-    lengths = np.asarray(lengths, float)
+def ball_about(center: ArrayLike, radius: float, color: str | int, opacity: float) -> list[Part]:
+    """A translucent ball."""
+    return [Part(ball(radius, 20), color, frame_along([0, 0, 1], center), **_glass(opacity))]
+
+
+def ellipsoid(
+    axes: ArrayLike, lengths: ArrayLike, at: ArrayLike, color: str | int, opacity: float, wire: float
+) -> dict[str, tuple[list[Part], np.ndarray]]:
+    """A translucent ellipsoid with rods along its axes: name -> (parts of unit size, T (4, 4) to shape them).
+
+    The ball of radius 1 is stretched along all axes, a rod only along itself.
+    """
+    axes, lengths = np.array(axes, float), np.asarray(lengths, float)
+    if np.linalg.det(axes) < 0:
+        axes[:, 0] = -axes[:, 0]  # the same ellipsoid, not inside out
+    # flat where a direction is lost, never degenerate
+    thin = np.maximum(lengths, 1e-3 * max(lengths.max(), 1e-9))
+    shaped = {"body": ([Part(ball(1.0, 20), color, **_glass(opacity))], _scaled(axes, thin, at))}
+    profile = [(0.0, -1.0), (wire, -1.0), (wire, -1.0), (wire, 1.0), (wire, 1.0), (0.0, 1.0)]
+    rod = [Part(profile, color, segments=10, xray=0.35, **_WIRE)]
+    for k in range(3):
+        turned = np.roll(axes, -k - 1, axis=1)  # axis k becomes the last, z
+        shaped[f"axis{k + 1}"] = rod, _scaled(turned, np.array([1.0, 1.0, thin[k]]), at)
+    return shaped
+
+
+def _glass(opacity):
+    return {"opacity": opacity, "order": 6, "casts": False}
+
+
+def _scaled(axes, lengths, at):
     T = np.eye(4)
-    thin = np.maximum(
-        lengths, 1e-3 * max(lengths.max(), 1e-9)
-    )  # flat where a direction is lost, never degenerate
-    T[:3, :3], T[:3, 3] = np.asarray(axes, float) * thin, at
-    if np.linalg.det(T[:3, :3]) < 0:
-        T[:3, 0] = -T[:3, 0]  # the same ellipsoid, not inside out
-    parts = [Part(ball(1.0, 20), color, T, opacity=opacity, order=6, casts=False)]
-    if wire:
-        for direction, length in zip(np.asarray(axes, float).T, lengths, strict=True):
-            parts += line(at - length * direction, at + length * direction, color, "", wire)[0]
-    return parts
+    T[:3, :3], T[:3, 3] = axes * lengths, at
+    return T
 
 
 def _label(pos, text, cls):

@@ -50,7 +50,7 @@ receiveBundle(unpack("{bundle}"));
 """
 
 
-def standalone(viewer):
+def standalone(viewer: viewer_module.Viewer) -> str:
     """The page of a Viewer as it stands now (its pose, its motion), about 400 KB, as one string."""
     names = ("labels", "ghosts", "moving", "camera", "views", "description")
     state = {name: getattr(viewer, name) for name in names}

@@ -5,10 +5,14 @@ decide about shadows and drawing order are ours (meshcat's own Python properties
 The page renders in sRGB, so every colour is sent as its linear value.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import umsgpack
+from numpy.typing import ArrayLike
 
 from . import shapes
 
@@ -30,7 +34,7 @@ PALETTE = {
 _FINISH = {"body": (0.45, 0.0), "dark": (0.55, 0.1), "metal": (0.35, 0.5)}  # roughness, metalness
 
 
-def color(name):
+def color(name: str | int) -> int:
     """A palette name or a number 0xRRGGBB as the number; ValueError for any other name.
 
     >>> hex(color("trace"))
@@ -43,12 +47,12 @@ def color(name):
     return int(name)
 
 
-def channels(number):
+def channels(number: int) -> np.ndarray:
     """0xRRGGBB as three numbers in [0, 1]."""
     return np.array([number >> 16 & 255, number >> 8 & 255, number & 255]) / 255
 
 
-def linear(number):
+def linear(number: int) -> int:
     """The linear-light value of an sRGB color, as three.js wants it in its materials."""
     c = channels(number)
     c = np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
@@ -64,8 +68,8 @@ class Part:
     which it shines through whatever stands in front; order is three.js' renderOrder.
     """
 
-    shape: object
-    color: object = "body"
+    shape: shapes.Mesh | Sequence[tuple[float, float]]
+    color: str | int = "body"
     T: np.ndarray | None = None
     opacity: float = 1.0
     glow: float = 0.0
@@ -75,17 +79,17 @@ class Part:
     order: int = 0
 
     @property
-    def pose(self):
+    def pose(self) -> np.ndarray:
         return np.eye(4) if self.T is None else self.T
 
-    def mesh(self, coarse=False):
+    def mesh(self, coarse: bool = False) -> shapes.Mesh:
         """Its Mesh where it stands."""
         shape = self.shape
         if not isinstance(shape, shapes.Mesh):
             shape = shapes.lathe(shape, min(self.segments, 20) if coarse else self.segments)
         return shape.moved(self.pose)
 
-    def placed(self, T):
+    def placed(self, T: ArrayLike) -> Part:
         """The same part moved by T (4, 4)."""
         return replace(self, T=np.asarray(T, float) @ self.pose)
 
@@ -93,9 +97,12 @@ class Part:
 _THREE_TURNS_ABOUT_Y = np.array([[1.0, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]])
 
 
-def group(parts):
+def group(parts: Iterable[Part]) -> dict:
     """The parts as one three.js object, a Group of Meshes; equal shapes and materials are sent once."""
-    geometries, materials, children, shape_ids = [], [], [], {}
+    geometries: list[dict] = []
+    materials: list[dict] = []
+    children: list[dict] = []
+    shape_ids: dict[int, str] = {}
     for part in parts:
         if id(part.shape) not in shape_ids:
             shape_ids[id(part.shape)] = f"shape{len(geometries)}"
@@ -124,7 +131,7 @@ def group(parts):
     return document({"type": "Group", "children": children}, geometries, materials)
 
 
-def document(obj, geometries=(), materials=()):
+def document(obj: dict, geometries: Iterable[dict] = (), materials: Iterable[dict] = ()) -> dict:
     """What three.js' ObjectLoader reads: one object with what it refers to."""
     return {
         "metadata": {"version": 4.5, "type": "Object"},
@@ -134,12 +141,17 @@ def document(obj, geometries=(), materials=()):
     }
 
 
-def columns(T):
+def columns(T: ArrayLike) -> list[float]:
     """A matrix (4, 4) as three.js keeps it: 16 Python floats, column after column."""
     return [float(v) for v in np.asarray(T, float).T.ravel()]
 
 
-def buffers(vertices, faces=None, normals=None, rgba=None):
+def buffers(
+    vertices: ArrayLike,
+    faces: ArrayLike | None = None,
+    normals: ArrayLike | None = None,
+    rgba: ArrayLike | None = None,
+) -> dict:
     """A three.js BufferGeometry."""
     attributes = {"position": _array(vertices)}
     if normals is not None:

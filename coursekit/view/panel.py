@@ -25,14 +25,18 @@ under one lock, because slider messages arrive in more than one thread. Nothing 
 
 import contextlib
 import threading
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import ipywidgets
 import numpy as np
+from numpy.typing import ArrayLike
 
 from coursekit.view import controls as parts
+from coursekit.view.scene import Scene
 from coursekit.view.viewer import Viewer, mimebundle
 
-_open = {}  # (name, cell) -> the panel shown there now
+_open: dict = {}  # (name, cell) -> the panel shown there now
 
 
 class Panel(ipywidgets.VBox):
@@ -59,16 +63,16 @@ class Panel(ipywidgets.VBox):
 
     def __init__(
         self,
-        name,
-        scene,
-        controls=(),
-        update=None,
-        text=None,
-        below=(),
-        title=None,
-        height=430,
-        quality="auto",
-    ):
+        name: str,
+        scene: Scene,
+        controls: Sequence[parts.Control | parts.Sliders] = (),
+        update: Callable[[dict], None] | None = None,
+        text: Callable[[dict], str] | None = None,
+        below: Sequence[ipywidgets.Widget] = (),
+        title: str | None = None,
+        height: int = 430,
+        quality: str = "auto",
+    ) -> None:
         self.name = name
         self.title = name if title is None else title
         self.scene = scene
@@ -77,7 +81,7 @@ class Panel(ipywidgets.VBox):
         self._text = text
         self._lock = threading.RLock()
         self._quiet = False
-        self._stale = []  # plots that wait until a drag ends
+        self._stale: list = []  # plots that wait until a drag ends
         self._controls = {
             control.name: control for control in (*controls, *below) if hasattr(control, "name")
         }
@@ -106,11 +110,11 @@ class Panel(ipywidgets.VBox):
     # -- values
 
     @property
-    def values(self):
+    def values(self) -> dict[str, Any]:
         """Name -> value of every control, in radians and metres."""
         return {name: control.get() for name, control in self._controls.items() if control.get() is not None}
 
-    def set(self, **values):
+    def set(self, **values: Any) -> None:
         """Set controls from the program: one update for all of them, exactly these values.
 
         `panel.set(theta=[0, 0, 0, 0, 0, 0], tool=False)`
@@ -124,7 +128,7 @@ class Panel(ipywidgets.VBox):
                 self._controls[name].put(value)
         self.refresh()
 
-    def reset(self):
+    def reset(self) -> None:
         """Every control back to where it started."""
         with self._lock, self._silence():
             for control in self._controls.values():
@@ -132,7 +136,7 @@ class Panel(ipywidgets.VBox):
         self.refresh()
         self.viewer.frame = -1  # a motion that rests somewhere gives way to the robot's own pose
 
-    def refresh(self, live=False):
+    def refresh(self, live: bool = False) -> None:
         """Update scene, text and plots from the controls; `live`: more values will follow at once."""
         with self._lock:
             try:
@@ -154,34 +158,55 @@ class Panel(ipywidgets.VBox):
                 self.line.value = f"{type(error).__name__}: {error}"
                 raise
 
-    def play(self, poses, fps=30.0, loop=False, texts=None, autoplay=True):
+    def play(
+        self,
+        poses: ArrayLike,
+        fps: float = 30.0,
+        loop: bool = False,
+        texts: Sequence[str] | None = None,
+        autoplay: bool = True,
+    ) -> None:
         """Play transforms (N, k, 4, 4) of `scene.moving` in the page; see `Viewer.play`."""
         with self._lock:
             self.viewer.play(poses, fps, loop, texts, autoplay)
 
-    def play_theta(self, thetas, name="robot", fps=30.0, loop=False, texts=None, autoplay=True):
-        """Play joint values (N, n) of the robot `name`; the scene itself stays as it is."""
+    def play_theta(
+        self,
+        thetas: ArrayLike,
+        name: str = "robot",
+        fps: float = 30.0,
+        loop: bool = False,
+        texts: Sequence[str] | None = None,
+        autoplay: bool = True,
+        follow: Callable[[np.ndarray], None] | None = None,
+    ) -> None:
+        """Play joint values (N, n) of the robot `name`; the scene itself stays as it is.
+
+        follow : function(theta), optional
+            Moves what goes with the arm (`Scene.move`), for one configuration.
+        """
         with self._lock:
             before, poses = self.scene.theta(name), []
-            for theta in np.asarray(thetas, float):
+            for theta in (*np.asarray(thetas, float), before):
                 self.scene.set_theta(name, theta)
+                if follow is not None:
+                    follow(theta)
                 poses.append(self.scene.pose())
-            self.scene.set_theta(name, before)
-            self.viewer.play(np.array(poses), fps, loop, texts, autoplay)
+            self.viewer.play(np.array(poses[:-1]), fps, loop, texts, autoplay)
 
     # -- what a notebook stores
 
-    def to_html(self):
+    def to_html(self) -> str:
         """The scene as a page that needs neither kernel nor network, as one string."""
         return self.viewer.to_html()
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"{self.title}: {'closed' if self.scene is None else self.scene.text()}"
 
     def _repr_mimebundle_(self, **_options):
         return mimebundle(self, repr(self), self.scene, self.viewer.height)
 
-    def close(self):
+    def close(self) -> None:
         """Close every widget of the panel: nothing of it stays in the kernel or the page."""
         for key in [key for key, panel in _open.items() if panel is self]:
             del _open[key]
@@ -189,8 +214,9 @@ class Panel(ipywidgets.VBox):
         # The notebook's Out[...] keeps the panel for ever: what it drew must not stay with it.
         if hasattr(self, "viewer"):  # a panel that was refused half-way has none
             self.viewer.forget()
-        self.scene, self.below, self._controls, self._stale = None, [], {}, []
-        self.children = ()
+        self.below, self._controls, self._stale = [], {}, []
+        self.scene = None  # type: ignore[assignment]  # closed: nothing may use it any more
+        self.children = []
         self._update = self._text = None
 
     # -- making it

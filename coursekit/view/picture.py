@@ -16,15 +16,17 @@ from PIL import Image, ImageDraw, ImageFilter, ImageFont
 from . import stage
 from .camera import FOV
 from .paint import PALETTE, channels, color
+from .scene import Scene
 
 PAPER = np.array([0.972, 0.976, 0.982])
 KEY = np.array([0.8, -0.95, 1.9]) / np.linalg.norm([0.8, -0.95, 1.9])  # where the light comes from
 INK = {"x": 0xC93D31, "y": 0x2F8A4B, "z": 0x2F63C9, "axis": 0x6A3FB0, "tick": 0x8A94A0}
 FINER = 2  # pixels drawn per pixel kept, along each side
 SHADES = 96  # colors in the file
+LINE = 14  # pixels from one label to the next below it
 
 
-def draw(scene, width=720, height=440, view="home"):
+def draw(scene: Scene, width: int = 720, height: int = 440, view: str = "home") -> bytes:
     """The scene from one of its views as PNG bytes; the same scene gives the same bytes."""
     eye = _Eye(scene.views[view], width * FINER, height * FINER)
     shown = [path for path in scene.parts if scene.visible(path)]
@@ -80,15 +82,21 @@ def _rasterise(eye, pixel, nearness, faces, both_sides=False):
     area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
     faced = np.abs(area) > 1e-9 if both_sides else area < -1e-9  # pixels count downwards
     faces, area, ax, ay, bx, by, cx, cy = (v[faced] for v in (faces, area, ax, ay, bx, by, cx, cy))
-    left, right = (f(f(ax, bx), cx).clip(0, eye.width) for f in (np.minimum, np.maximum))
+    # Row by row and not over the bounding box, huge for a thin rod that runs askew. Pixel centres lie at 0.5;
+    # a span begins a pixel early and ends one late, and the weights decide.
     top, bottom = (f(f(ay, by), cy).clip(0, eye.height) for f in (np.minimum, np.maximum))
-    # pixel centres lie at + 0.5
-    left, top = np.ceil(left - 0.5).astype(int), np.ceil(top - 0.5).astype(int)
-    wide, high = np.ceil(right - 0.5).astype(int) - left, np.ceil(bottom - 0.5).astype(int) - top
-    count = wide * high
-    face = np.repeat(np.arange(len(faces)), count)
-    row, column = np.divmod(np.arange(len(face)) - np.repeat(np.cumsum(count) - count, count), wide[face])
-    x, y = left[face] + column, top[face] + row
+    face, y = _runs(np.ceil(top - 0.5).astype(int), np.ceil(bottom - 0.5).astype(int))
+    left, right = np.full(len(face), np.inf), np.full(len(face), -np.inf)
+    for px, py, qx, qy in ((ax, ay, bx, by), (bx, by, cx, cy), (cx, cy, ax, ay)):
+        with np.errstate(divide="ignore", invalid="ignore"):  # an edge that is level crosses no row
+            way = (y + 0.5 - py[face]) / (qy - py)[face]
+        crosses = np.abs(way - 0.5) <= 0.5 + 1e-9
+        x = px[face] + way * (qx - px)[face]
+        left = np.minimum(left, np.where(crosses, x, np.inf))
+        right = np.maximum(right, np.where(crosses, x, -np.inf))
+    left, right = (edge.clip(0, eye.width) for edge in (left - 1.5, right + 1.5))
+    row, x = _runs(np.ceil(left).astype(int), np.floor(right).astype(int))
+    face, y = face[row], y[row]
 
     def weight(
         px, py, qx, qy
@@ -101,6 +109,13 @@ def _rasterise(eye, pixel, nearness, faces, both_sides=False):
     u, v, at = u[inside], v[inside], (y * eye.width + x)[inside]
     corners, weights = faces[face[inside]], np.column_stack([u, v, 1 - u - v])
     return at, corners, weights, np.einsum("ij,ij->i", weights, nearness[corners])
+
+
+def _runs(start, end):
+    """All whole numbers from start to end (exclusive) of each run: which run, and the number."""
+    count = np.maximum(end - start, 0)
+    run = np.repeat(np.arange(len(count)), count)
+    return run, start[run] + np.arange(len(run)) - np.repeat(np.cumsum(count) - count, count)
 
 
 def _paint(canvas, near, eye, things, opacity=1.0):
@@ -178,24 +193,37 @@ def _ground(scene, eye, casting):
 
 
 def _letter(image, scene, eye):
-    """Labels with a halo of paper, drawn last so that nothing hides them."""
+    """Labels with a halo of paper, drawn last so that nothing hides them.
+
+    Words give way to each other, downwards; the letters of axes and the scale of the grid, by not being
+    there: the same rule as in the page (actors.js).
+    """
     pen = ImageDraw.Draw(image)
     halo = tuple(int(255 * v) for v in PAPER)
-    labels = scene.labels
-    worlds = scene.worlds({label["path"] for label in labels})
-    for label in labels:
+    worlds = scene.worlds({label["path"] for label in scene.labels})
+    taken = []  # x, y and width of what stands already, in pixels
+    for label in sorted(scene.labels, key=_is_word, reverse=True):
         T = worlds[label["path"]]
         pixel, nearness = eye.project((T[:3, :3] @ label["pos"] + T[:3, 3])[None])
-        if nearness[0] < 1e5:
-            ink = INK.get(label["cls"], PALETTE["bone"])
-            small = label["cls"] in ("tick", "note", "axis")
-            look = {
-                "font": _font(12 if small else 14),
-                "anchor": "mm",
-                "stroke_width": 2,
-                "stroke_fill": halo,
-            }
-            pen.text(tuple(pixel[0] / FINER), label["text"], fill=f"#{ink:06x}", **look)
+        if nearness[0] >= 1e5:  # behind the camera
+            continue
+        (x, y), font = pixel[0] / FINER, _font(12 if label["cls"] in ("tick", "note", "axis") else 14)
+        wide = font.getlength(label["text"]) + 3
+
+        def is_taken(x, y, wide):
+            return any(abs(a - x) < (w + wide) / 2 and abs(b - y) < LINE for a, b, w in taken)
+
+        while _is_word(label) and is_taken(x, y, wide):
+            y += LINE
+        if is_taken(x, y, wide):
+            continue
+        taken.append((x, y, wide))
+        ink = f"#{INK.get(label['cls'], PALETTE['bone']):06x}"
+        pen.text((x, y), label["text"], ink, font, anchor="mm", stroke_width=2, stroke_fill=halo)
+
+
+def _is_word(label):
+    return label["cls"] not in ("x", "y", "z", "tick")
 
 
 @cache

@@ -1,13 +1,20 @@
 """Plots beside the 3D view: a matplotlib figure drawn to a picture, with a caption that says what to see."""
 
+from __future__ import annotations
+
 import io
 import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import anywidget
 import numpy as np
 import traitlets
 
 from coursekit.view import controls
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure  # else only where it is used: its import is slow
 
 
 class Plot(anywidget.AnyWidget):
@@ -35,18 +42,24 @@ class Plot(anywidget.AnyWidget):
     width = traitlets.Int().tag(sync=True)
     clickable = traitlets.Bool(False).tag(sync=True)
 
-    def __init__(self, draw, caption, size=(5.2, 3.2), on_click=None):
+    def __init__(
+        self,
+        draw: Callable[[Figure, dict], None],
+        caption: str,
+        size: tuple[float, float] = (5.2, 3.2),
+        on_click: Callable[[float, float], None] | None = None,
+    ) -> None:
         self.draw = draw
         self.on_click = on_click
         self._size = size
-        self._figure = None
+        self._figure: Figure | None = None
         self._cost = 0.0  # seconds of the last drawing
         self._drawn_at = 0.0
         super().__init__(
             alt=caption, caption=caption, width=round(96 * size[0]), clickable=on_click is not None
         )
 
-    def refresh(self, values):
+    def refresh(self, values: dict) -> None:
         """Draw the figure for these values and send the picture."""
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
@@ -61,11 +74,11 @@ class Plot(anywidget.AnyWidget):
         self._drawn_at = time.monotonic()
         self._cost = self._drawn_at - begun
 
-    def has_time(self):
+    def has_time(self) -> bool:
         """While a slider is dragged: would drawing now leave most of the time to the robot?"""
         return time.monotonic() - self._drawn_at > 4 * self._cost
 
-    def point(self, x, y):
+    def point(self, x: float, y: float) -> tuple[float, float] | None:
         """Data coordinates of a click at fractions (x, y) of the picture, or None outside the first axes."""
         if self._figure is None or not self._figure.axes:
             return None
@@ -74,7 +87,8 @@ class Plot(anywidget.AnyWidget):
         inside = axes.transAxes.inverted().transform(pixel)
         if not np.all((inside >= 0) & (inside <= 1)):
             return None
-        return tuple(float(v) for v in axes.transData.inverted().transform(pixel))
+        at = axes.transData.inverted().transform(pixel)
+        return float(at[0]), float(at[1])
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Plot({self.caption})"

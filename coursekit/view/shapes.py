@@ -5,10 +5,13 @@ Turned parts have a profile, a list of (radius, height) from bottom to top; a po
 edge there, because normals are averaged around each profile point.
 """
 
+from __future__ import annotations
+
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 
 class Mesh(NamedTuple):
@@ -18,7 +21,7 @@ class Mesh(NamedTuple):
     faces: np.ndarray
     normals: np.ndarray
 
-    def moved(self, T):
+    def moved(self, T: ArrayLike) -> Mesh:
         """The mesh after the rigid (or scaling) transform T (4, 4)."""
         T = np.asarray(T, float)
         normals = self.normals @ np.linalg.inv(T[:3, :3])  # normals transform with the inverse transpose
@@ -26,7 +29,9 @@ class Mesh(NamedTuple):
         return Mesh(self.vertices @ T[:3, :3].T + T[:3, 3], self.faces, normals)
 
 
-def frame_along(direction, origin=(0, 0, 0), side=None):
+def frame_along(
+    direction: ArrayLike, origin: ArrayLike = (0, 0, 0), side: ArrayLike | None = None
+) -> np.ndarray:
     """A pose (4, 4) at `origin` whose z axis is `direction` and whose x axis leans towards `side`.
 
     >>> frame_along([0, 1, 0])[:3, 2].tolist()
@@ -47,7 +52,9 @@ def frame_along(direction, origin=(0, 0, 0), side=None):
 # --- turned parts: profiles, and the mesh of a profile ---
 
 
-def bevelled(radius, low, high, bevel, steps=3):
+def bevelled(
+    radius: float, low: float, high: float, bevel: float, steps: int = 3
+) -> list[tuple[float, float]]:
     """Profile of a cylinder from height low to high whose two edges are rounded with radius `bevel`."""
     bevel = min(bevel, radius, (high - low) / 2)
     turn = np.linspace(0, np.pi / 2, steps + 1)
@@ -57,7 +64,7 @@ def bevelled(radius, low, high, bevel, steps=3):
     return [(0.0, low), *bottom, *top, (0.0, high)]
 
 
-def arrow(length, radius, head=None):
+def arrow(length: float, radius: float, head: float | None = None) -> list[tuple[float, float]]:
     """Profile of an arrow along z: a shaft, then a cone of 2.6 times its radius."""
     head = min(7 * radius, length / 2) if head is None else head
     neck = length - head
@@ -67,13 +74,13 @@ def arrow(length, radius, head=None):
     ]  # fmt: skip
 
 
-def ball(radius, steps=12):
+def ball(radius: float, steps: int = 12) -> list[tuple[float, float]]:
     """Profile of a sphere about the origin."""
     turn = np.linspace(-np.pi / 2, np.pi / 2, steps + 1)
     return [(max(radius * np.cos(t), 0.0), radius * np.sin(t)) for t in turn]
 
 
-def lathe(profile, segments=32):
+def lathe(profile: ArrayLike, segments: int = 32) -> Mesh:
     """Mesh of a profile turned about z."""
     radius, height = np.asarray(profile, float).T
     angle = np.linspace(0, 2 * np.pi, segments, endpoint=False)
@@ -87,7 +94,7 @@ def lathe(profile, segments=32):
 # --- links and wires ---
 
 
-def loft(sections, segments=28, steps=4):
+def loft(sections: ArrayLike, segments: int = 28, steps: int = 4) -> Mesh:
     """Mesh through cross-sections (k, 6): height, centre x, centre y, half width x, half width y, squareness.
 
     Squareness 2 is an ellipse, 4 nearly a rectangle with round corners. Between two sections all numbers run
@@ -111,7 +118,7 @@ def loft(sections, segments=28, steps=4):
     return _skin(_closed(rings))
 
 
-def tube(points, radius, segments=8):
+def tube(points: ArrayLike, radius: float, segments: int = 8) -> Mesh:
     """Mesh of a round wire through points (k, 3)."""
     points = np.asarray(points, float)
     tangent = np.gradient(points, axis=0)
@@ -130,7 +137,7 @@ def tube(points, radius, segments=8):
     return _skin(_closed(np.array(rings)))
 
 
-def plate(size):
+def plate(size: float) -> Mesh:
     """Mesh of a square in the x, y plane, seen from both sides."""
     s = size / 2
     corner = np.array([[-s, -s, 0], [s, -s, 0], [s, s, 0], [-s, s, 0]])

@@ -3,6 +3,8 @@
 Everything is scaled to `size`, the length of the arm, so that a planar toy and a welding robot look alike.
 """
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from .paint import PALETTE, buffers, channels, columns, document, linear
@@ -10,7 +12,7 @@ from .paint import PALETTE, buffers, channels, columns, document, linear
 STOCK = ("SpotLight", "PointLightNegativeX", "PointLightPositiveX", "AmbientLight", "FillLight")
 
 
-def commands(size, floor):
+def commands(size: float, floor: float) -> Iterator[dict]:
     """Meshcat commands for the light, the floor at height `floor`, and the grid on it."""
     hide = ["/Grid", "/Axes", "/Background", *(f"/Lights/{name}" for name in STOCK)]
     for path in hide:
@@ -24,7 +26,7 @@ def commands(size, floor):
         yield {"type": "set_object", "path": f"/ck/stage/{name}", "object": thing}
 
 
-def spacing(size):
+def spacing(size: float) -> tuple[float, float]:
     """Distances between fine and strong grid lines, metres: 1, 2 or 5 times a power of ten, about size / 12.
 
     >>> spacing(1.4)
@@ -36,7 +38,7 @@ def spacing(size):
     return round(fine, 12), round(5 * fine, 12)
 
 
-def ticks(size, floor):
+def ticks(size: float, floor: float) -> Iterator[dict]:
     """Labels that give the grid its scale."""
     strong = spacing(size)[1]
     text = f"{strong:g} m"
@@ -44,7 +46,7 @@ def ticks(size, floor):
     yield {"pos": [-0.05 * size, strong, floor], "text": text, "cls": "tick"}
 
 
-def grid_lines(size, floor):
+def grid_lines(size: float, floor: float) -> tuple[np.ndarray, np.ndarray]:
     """Pieces of grid lines (m, 2, 3) and how strongly each end shows, (m, 2) in [0, 1].
 
     Lines come in short pieces: each fades with its distance from the middle, and some software renderers drop
@@ -64,8 +66,8 @@ def grid_lines(size, floor):
             shown = fade.max(axis=1) > 0
             pieces.append(points[shown])
             alpha.append(weight * fade[shown])
-    pieces = np.concatenate(pieces)
-    return np.concatenate([pieces, np.full((*pieces.shape[:2], 1), floor)], axis=-1), np.concatenate(alpha)
+    flat = np.concatenate(pieces)
+    return np.concatenate([flat, np.full((*flat.shape[:2], 1), floor)], axis=-1), np.concatenate(alpha)
 
 
 def _key_light(size, floor):

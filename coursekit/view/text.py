@@ -3,7 +3,10 @@
 Fixed digits, rounded, never "-0", NaN as "-", columns aligned. Every function returns a str; nothing prints.
 """
 
+from collections.abc import Iterable, Sequence
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from coursekit.kinematics import checks, rotations
 
@@ -11,7 +14,7 @@ NOTHING = "-"  # how a missing number (NaN, None) looks
 GUARD = 6  # digits beyond the shown ones that are rounded first
 
 
-def number(x, digits=3):
+def number(x: float | np.ndarray, digits: int = 3) -> str:
     """One number with `digits` decimals.
 
     Rounded twice: 0.0625 lies halfway between 0.062 and 0.063, and without the first rounding a rest of 1e-17
@@ -29,7 +32,7 @@ def number(x, digits=3):
     return f"{rounded + 0.0:.{digits}f}"  # -0.0 + 0.0 is 0.0
 
 
-def scientific(x, digits=2):
+def scientific(x: float | np.ndarray, digits: int = 2) -> str:
     """One number with `digits` significant digits and a power of ten, for sizes that span many of them.
 
     >>> scientific(0.00001432), scientific(0), scientific(np.nan)
@@ -41,7 +44,7 @@ def scientific(x, digits=2):
     return "0" if x == 0 else f"{x:.{digits - 1}e}"
 
 
-def below(x, bound):
+def below(x: ArrayLike, bound: float) -> str:
     """The verdict on a difference that should be nothing but rounding: x is one number or an array of them.
 
     Says the bound and not the difference itself, which is another one on every machine.
@@ -49,14 +52,14 @@ def below(x, bound):
     >>> below(3e-16, 2e-15), below([0.1, -0.25], 1e-12)
     ('below 2e-15', 'NOT below 1e-12: 0.25')
     """
-    x = np.abs(np.asarray(x, dtype=float))
+    x = np.asarray(x, dtype=float)
     if np.isnan(x).any():
         return f"NOT below {bound:.0e}: not a number"
-    worst = x.max(initial=0.0)
+    worst = np.abs(x).max(initial=0.0)
     return f"below {bound:.0e}" if worst <= bound else f"NOT below {bound:.0e}: {worst:.2g}"
 
 
-def row(values, digits=3):
+def row(values: ArrayLike, digits: int = 3) -> str:
     """Numbers in one line. values (n,).
 
     >>> row([0.445, -0.0, 0.9])
@@ -65,7 +68,7 @@ def row(values, digits=3):
     return "(" + ", ".join(number(x, digits) for x in np.ravel(values)) + ")"
 
 
-def degrees(q, digits=1):
+def degrees(q: ArrayLike, digits: int = 1) -> str:
     """Angles given in radians, shown in degrees: one, or a row of them.
 
     >>> degrees(np.pi / 4), degrees([0, -np.pi / 2])
@@ -74,7 +77,7 @@ def degrees(q, digits=1):
     return _with_unit(np.degrees(q), digits, "deg")
 
 
-def millimetres(p, digits=1):
+def millimetres(p: ArrayLike, digits: int = 1) -> str:
     """Lengths given in metres, shown in millimetres: one, or a row of them.
 
     >>> millimetres(0.98), millimetres([0.445, 0, 0.9])
@@ -83,7 +86,7 @@ def millimetres(p, digits=1):
     return _with_unit(1000 * np.asarray(p, dtype=float), digits, "mm")
 
 
-def pose(T):
+def pose(T: ArrayLike) -> str:
     """Position and ZYX angles of a pose in one line. T (4, 4).
 
     >>> pose([[0, -1, 0, 0.4], [1, 0, 0, 0], [0, 0, 1, 0.9], [0, 0, 0, 1]])
@@ -94,7 +97,7 @@ def pose(T):
     return f"position {millimetres(T[:3, 3])}, yaw pitch roll {degrees(rotations.zyx(R))}"
 
 
-def matrix(A, digits=3):
+def matrix(A: ArrayLike, digits: int = 3) -> str:
     """A matrix, its columns aligned. A (m, n); a vector is one line.
 
     >>> print(matrix([[1, 0, 0.98], [0, -1, 0]]))
@@ -105,7 +108,9 @@ def matrix(A, digits=3):
     return _aligned(cells, left=[False] * len(cells[0]))
 
 
-def table(rows, header=None, digits=3):
+def table(
+    rows: Iterable[Iterable], header: Sequence[str] | None = None, digits: int | Sequence[int] = 3
+) -> str:
     """A table. rows: lines of cells, each a number, a truth value, None or text; header: a name per column.
 
     digits: decimals of the numbers that are not whole, one for all columns or one per column. Columns of
@@ -117,17 +122,17 @@ def table(rows, header=None, digits=3):
     elbow        0.083  yes
     wrist            0  no
     """
-    rows = [list(line) for line in rows]
-    width = len(header) if header is not None else len(rows[0]) if rows else 0
-    if any(len(line) != width for line in rows):
+    lines = [list(line) for line in rows]
+    width = len(header) if header is not None else len(lines[0]) if lines else 0
+    if any(len(line) != width for line in lines):
         raise ValueError(
-            f"every row of the table must have {width} cells, got {[len(line) for line in rows]}"
+            f"every row of the table must have {width} cells, got {[len(line) for line in lines]}"
         )
-    digits = [digits] * width if np.ndim(digits) == 0 else list(digits)
+    digits = [digits] * width if isinstance(digits, int | np.integer) else list(digits)
     if len(digits) != width:
         raise ValueError(f"digits must be one number or one for each of {width} columns, got {len(digits)}")
-    cells = [[_cell(value, d) for value, d in zip(line, digits, strict=True)] for line in rows]
-    words = [any(isinstance(line[i], str | bool | np.bool_) for line in rows) for i in range(width)]
+    cells = [[_cell(value, d) for value, d in zip(line, digits, strict=True)] for line in lines]
+    words = [any(isinstance(line[i], str | bool | np.bool_) for line in lines) for i in range(width)]
     if header is None:
         return _aligned(cells, words)
     rule = ["-" * max(len(line[i]) for line in [header, *cells]) for i in range(width)]

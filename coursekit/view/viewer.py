@@ -15,33 +15,42 @@ import functools
 import gzip
 import importlib.util
 import warnings
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import anywidget
+import ipywidgets
 import numpy as np
 import traitlets
 import umsgpack
+from numpy.typing import ArrayLike
+
+from coursekit.view.scene import Scene
 
 _STATIC = Path(__file__).parent / "static"
 _SCRIPTS = ("bundle.js", "stage.js", "actors.js", "player.js", "viewer.js")
 
 
-def script():
+def script() -> str:
     """The page's side of the viewer: one JavaScript module, joined from the files in `static/`."""
     return "\n".join((_STATIC / name).read_text(encoding="utf-8") for name in _SCRIPTS)
 
 
 @functools.cache
-def bundle():
+def bundle() -> bytes:
     """meshcat's JavaScript bundle, gzipped (853 KB become 217 KB).
 
     Found without importing meshcat, whose import costs half a second and warns about a library it uses.
     """
-    package = Path(importlib.util.find_spec("meshcat").origin).parent
+    found = importlib.util.find_spec("meshcat")
+    if found is None or found.origin is None:
+        raise ModuleNotFoundError("the viewer needs meshcat, which is not installed", name="meshcat")
+    package = Path(found.origin).parent
     return gzip.compress((package / "viewer" / "dist" / "main.min.js").read_bytes(), 6, mtime=0)
 
 
-def column_major(T):
+def column_major(T: ArrayLike) -> bytes:
     """Bytes of transforms (..., 4, 4) as three.js reads them: float64, column by column."""
     T = np.asarray(T, float)
     if T.shape[-2:] != (4, 4):
@@ -68,24 +77,24 @@ class Viewer(anywidget.AnyWidget):
     _bundle_was_sent = False  # by any Viewer of this kernel
 
     commands = traitlets.Dict().tag(sync=True, to_json=lambda _value, viewer: dict(viewer._packed))
-    labels = traitlets.List().tag(sync=True)
-    ghosts = traitlets.List().tag(sync=True)
-    moving = traitlets.List().tag(sync=True)
+    labels: traitlets.List = traitlets.List().tag(sync=True)
+    ghosts: traitlets.List = traitlets.List().tag(sync=True)
+    moving: traitlets.List = traitlets.List().tag(sync=True)
     pose = traitlets.Bytes().tag(sync=True)
     camera = traitlets.Dict().tag(sync=True)
     views = traitlets.Dict().tag(sync=True)
     description = traitlets.Unicode().tag(sync=True)
     motion = traitlets.Dict().tag(sync=True)
     motion_poses = traitlets.Bytes().tag(sync=True)
-    motion_texts = traitlets.List().tag(sync=True)
+    motion_texts: traitlets.List = traitlets.List().tag(sync=True)
     frame = traitlets.Int(-1).tag(sync=True)  # pose of the motion that is shown; -1: `pose` is shown
     height = traitlets.Int(420).tag(sync=True)
     quality = traitlets.Enum(["auto", "high", "low"], "auto").tag(sync=True)
 
-    def __init__(self, scene, height=420, quality="auto"):
+    def __init__(self, scene: Scene, height: int = 420, quality: str = "auto") -> None:
         self.scene = scene
-        self._drawn = {}  # key -> the scene's command, to see what changed
-        self._packed = {}  # key -> its bytes
+        self._drawn: dict[str, dict] = {}  # key -> the scene's command, to see what changed
+        self._packed: dict[str, bytes] = {}  # key -> its bytes
         self._take(scene)
         super().__init__(height=height, quality=quality, **self._state(scene))
         self.on_msg(self._answer)
@@ -93,10 +102,10 @@ class Viewer(anywidget.AnyWidget):
             Viewer._bundle_was_sent = True
             self.send({"type": "bundle"}, buffers=[bundle()])
 
-    def sync(self, scene=None):
+    def sync(self, scene: Scene | None = None) -> None:
         """Send what changed in the scene since the last call, and nothing else.
 
-        A robot that moved ends a motion; a label or a frame that is switched on does not.
+        A robot that moved away from the motion ends it; a label or a frame that is switched on does not.
         """
         self.scene = scene = self.scene if scene is None else scene
         changed, gone, deleted = self._take(scene)
@@ -105,19 +114,26 @@ class Viewer(anywidget.AnyWidget):
             self.send(content, buffers=[self._packed[key] for key in changed])
         state = self._state(scene)
         with self.hold_sync():
-            if state["pose"] != self.pose:
+            if state["pose"] != self.pose and not self._shows(state["pose"]):
                 self.frame = -1
             for name, value in state.items():
                 setattr(self, name, value)
 
-    def set_pose(self, transforms):
+    def set_pose(self, transforms: ArrayLike) -> None:
         """Move what moves: transforms (k, 4, 4) in the order of `scene.moving`, in one message."""
         transforms = self._as_poses(transforms, 3)
         with self.hold_sync():
             self.pose = column_major(transforms)
             self.frame = -1
 
-    def play(self, transforms, fps=30.0, loop=False, texts=None, autoplay=True):
+    def play(
+        self,
+        transforms: ArrayLike,
+        fps: float = 30.0,
+        loop: bool = False,
+        texts: Sequence[str] | None = None,
+        autoplay: bool = True,
+    ) -> None:
         """Send a motion once and let the page step through it, with play, pause, scrub and speed.
 
         Parameters
@@ -146,29 +162,30 @@ class Viewer(anywidget.AnyWidget):
                 "autoplay": bool(autoplay),
             }
 
-    def stop(self):
+    def stop(self) -> None:
         """Take the motion and its buttons away and show the scene's own pose."""
         with self.hold_sync():
             self.motion, self.motion_poses, self.motion_texts, self.frame = {}, b"", [], -1
 
-    def forget(self):
+    def forget(self) -> None:
         """Let go of what was drawn, once the viewer is closed."""
-        self.scene, self._drawn, self._packed = None, {}, {}
+        self._drawn, self._packed = {}, {}
+        self.scene = None  # type: ignore[assignment]  # closed: nothing may use it any more
 
     @functools.cached_property
-    def meshcat(self):
+    def meshcat(self) -> Any:
         """A `meshcat.Visualizer` that draws into this viewer, for those who know meshcat."""
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)  # meshcat imports a part of zmq that will go
             import meshcat
         return meshcat.Visualizer(window=self)
 
-    def send_command(self, key, command):
+    def send_command(self, key: str, command: dict) -> None:
         """Send one raw meshcat command beside the scene's own; the same key replaces it later."""
         self._packed[key] = umsgpack.packb(command)
         self.send({"type": "commands", "keys": [key], "gone": [], "delete": []}, [self._packed[key]])
 
-    def send(self, content, buffers=None):
+    def send(self, content: Any, buffers: Sequence[bytes] | None = None) -> None:
         """Send a custom message; a meshcat command object (from `meshcat.Visualizer`) is packed first."""
         if hasattr(content, "lower"):
             command = content.lower()
@@ -176,13 +193,13 @@ class Viewer(anywidget.AnyWidget):
             return self.send_command(f"meshcat:{command['path']}:{command['type']}:{kind}", command)
         return super().send(content, buffers)
 
-    def to_html(self):
+    def to_html(self) -> str:
         """A page with this scene in 3D that needs neither kernel nor network, as one string."""
         from coursekit.view.page import standalone
 
         return standalone(self)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Viewer({'closed' if self.scene is None else self.scene.text()})"
 
     def _repr_mimebundle_(self, **_options):
@@ -220,7 +237,13 @@ class Viewer(anywidget.AnyWidget):
             "description": scene.text(),
         }
 
-    def _as_poses(self, transforms, dimensions):
+    def _shows(self, pose):
+        """Whether the frame of the motion at which the page rests is this pose (but for rounding)."""
+        begin = self.frame * len(pose)
+        shown = self.motion_poses[begin : begin + len(pose)] if self.frame >= 0 else b""
+        return len(shown) == len(pose) and np.allclose(np.frombuffer(shown), np.frombuffer(pose), atol=1e-12)
+
+    def _as_poses(self, transforms: ArrayLike, dimensions: int) -> np.ndarray:
         transforms = np.asarray(transforms, float)
         expected = (*(("N",) if dimensions == 4 else ()), len(self.moving), 4, 4)
         if transforms.ndim != dimensions or transforms.shape[-3:] != expected[-3:]:
@@ -238,7 +261,7 @@ class Viewer(anywidget.AnyWidget):
             self.send({"type": "png"}, buffers=[self.scene.png(*size)])
 
 
-def mimebundle(widget, text, scene, height):
+def mimebundle(widget: ipywidgets.Widget, text: str, scene: Scene, height: int) -> tuple[dict, dict]:
     """What a notebook stores for a widget: itself, a picture for readers without a kernel, and one line."""
     data = {
         "text/plain": text,

@@ -33,21 +33,24 @@ kr6 = robots.kuka_kr6()
 panel = view.explore(kr6)
 panel.viewer.quality = "{quality}"
 panel"""
-ECHO = '''\
-import anywidget, traitlets
+# the same slider in front of nothing: what the kernel answers is the value itself
+ECHO = """\
+import anywidget, ipywidgets, traitlets
+from coursekit.view import Slider
 class Echo(anywidget.AnyWidget):
-    _esm = """export default { render({ model, el }) {
-        let done = null;
-        model.on("change:answer", () => done(performance.now()));
-        window.echo = (value) => new Promise((resolve) => {
-            done = resolve; model.set("question", value); model.save_changes(); });
-    } };"""
-    question = traitlets.Float().tag(sync=True)
+    _esm = "export default { render({ model }) { model.on('change:answer', () => answered()); } };"
     answer = traitlets.Float().tag(sync=True)
-    @traitlets.observe("question")
-    def _reply(self, change):
-        self.answer = change.new
-Echo()'''
+slider, echo = Slider("echo", 0, -np.pi, np.pi, "deg"), Echo()
+slider.observe(lambda change: setattr(echo, "answer", change.new), "value")
+ipywidgets.VBox([slider, echo])"""
+ONE_ECHO = """async (key) => {
+    const range = [...document.querySelectorAll(".ck-range")].at(-1);
+    const begun = performance.now();
+    const done = new Promise((resolve) => (window.answered = resolve));
+    range.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+    await done;
+    return performance.now() - begun;
+}"""
 # One key on a slider, until the pose is there and until it is drawn: [arrival, drawn] in ms.
 ONE_KEY = """async (key) => {
     const range = document.querySelector(".ck-range");
@@ -108,17 +111,15 @@ def quantiles(times):
 
 
 def slider_and_echo(notebook, moves):
-    """Rows of one key on a slider, and of an empty round trip, turn by turn."""
+    """Rows of one key on a slider, and of the same slider in front of nothing, turn by turn."""
     page, keys, echoes = notebook.page, [], []
     for k in range(moves + 5):
         keys.append(page.evaluate(ONE_KEY, "ArrowRight" if k % 2 else "ArrowLeft"))
         page.wait_for_timeout(50)
-        echoes.append(
-            page.evaluate("async (k) => { const t = performance.now(); return (await echo(k + 1)) - t; }", k)
-        )
+        echoes.append(page.evaluate(ONE_ECHO, "ArrowRight" if k % 2 else "ArrowLeft"))
         page.wait_for_timeout(50)
     arrived, drawn = np.array(keys[5:]).T
-    yield "empty round trip of a widget", quantiles(echoes[5:])
+    yield "empty round trip of such a slider", quantiles(echoes[5:])
     yield "slider key -> pose is in the page", quantiles(arrived)
     yield "slider key -> pose is drawn", quantiles(drawn)
 

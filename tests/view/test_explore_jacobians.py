@@ -36,7 +36,7 @@ def test_the_ellipsoids_are_drawn_at_the_tool_to_the_scale_the_text_gives(panel)
     panda, theta = robots.franka_panda(), np.array([0.3, -0.4, 0.2, -1.5, 0.6, 1.2, 0.1])
     panel.set(theta=theta, angular=True)
     for part in ("linear", "angular"):
-        placed = panel.scene.parts[f"/ck/{part}"][0].pose
+        placed = panel.scene.worlds([f"/ck/{part}/body"])[f"/ck/{part}/body"]
         np.testing.assert_allclose(placed[:3, 3], panda.fk(theta)[:3, 3], rtol=0, atol=1e-12)
         (line,) = [line for line in panel.line.value.splitlines() if line.startswith(part)]
         scale = float(line.split("drawn ")[1].split(" mm")[0]) / 1000
@@ -82,6 +82,18 @@ def test_the_actions_move_the_arm_and_play_both_runs(panel):
     panel._controls["newton"].act(panel)
     panel._controls["near"].act(panel)
     np.testing.assert_array_equal(panel.scene.theta(), near)
+
+
+def test_the_ellipsoids_go_along_while_a_run_is_played(panel):
+    panda, start = robots.franka_panda(), panel.values["theta"]
+    before = panel.scene.pose()
+    panel._controls["damped"].act(panel)
+    played = np.frombuffer(panel.viewer.motion_poses).reshape(panel.viewer.motion["frames"], -1, 4, 4)
+    steps = ik.damped_least_squares(panda, panda.fk(panda.home), start, damping=0.1, tol=1e-8).history
+    body = panel.scene.moving.index("/ck/linear/body")
+    for frame, step in zip(played, steps, strict=True):
+        np.testing.assert_allclose(frame[body].T[:3, 3], panda.fk(step.theta)[:3, 3], atol=1e-9)
+    np.testing.assert_array_equal(panel.scene.pose(), before)
 
 
 @pytest.mark.parametrize("name", robots.all())

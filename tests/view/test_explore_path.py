@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from coursekit import path, robots, view
+from coursekit.view import text
 
 
 @pytest.fixture(scope="module")
@@ -36,7 +37,8 @@ def test_it_starts_at_rest_at_the_first_point(panel):
     T = path.frames(path.s_curve(101))
     np.testing.assert_allclose(tool(panel), T[0], atol=1e-12)
     lines = panel.line.value.splitlines()
-    assert "point 1 of 101" in lines[0]
+    assert lines[0] == "front elbow-up flip"
+    assert panel.viewer.motion_texts[0].startswith("point 1 of 101: joints at ")
     assert lines[1].endswith("inside the limits")
     assert lines[2].startswith("largest speed 0.3001 m/s: joint 6 at 2.000 rad/s")
     assert panel.viewer.motion["autoplay"] is False
@@ -52,10 +54,19 @@ def test_the_motion_takes_as_long_as_the_arm_would(panel):
     assert seconds == pytest.approx(1.8308 / 0.300066, rel=1e-4)
 
 
+def test_reset_goes_back_to_the_first_point(panel):
+    panel.viewer.frame = 30
+    panel.reset()
+    np.testing.assert_allclose(tool(panel), path.frames(path.s_curve(101))[0], atol=1e-12)
+
+
 @pytest.mark.parametrize("place", [30, 100])
 def test_where_the_motion_rests_the_arm_the_text_and_the_pose_follow(panel, place):
     panel.viewer.frame = place  # what the page says after pause or scrub
-    assert f"point {place + 1} of 101" in panel.line.value
+    assert panel.viewer.frame == place, "the page goes on showing that pose, and its text"
+    assert panel.viewer.motion_texts[place].startswith(f"point {place + 1} of 101: joints at ")
+    q = path.follow(robots.abb_irb1200(), path.frames(path.s_curve(101)))[panel.values["branch"], place]
+    assert f"joints {text.degrees(q)}" in panel.line.value
     np.testing.assert_allclose(tool(panel), path.frames(path.s_curve(101))[place], atol=1e-12)
     pose = np.frombuffer(panel.viewer.pose).reshape(-1, 4, 4).transpose(0, 2, 1)
     np.testing.assert_allclose(pose, sent(panel)[place], rtol=0, atol=1e-15)
@@ -64,7 +75,7 @@ def test_where_the_motion_rests_the_arm_the_text_and_the_pose_follow(panel, plac
 def test_many_points_are_thinned_for_the_page_alone(panel):
     panel.set(points="5001")
     assert panel.viewer.motion["frames"] == 501
-    assert "point 1 of 5001" in panel.line.value and "0.3000 m/s" in panel.line.value
+    assert panel.viewer.motion_texts[0].startswith("point 1 of 5001") and "0.3000 m/s" in panel.line.value
     np.testing.assert_allclose(
         sent(panel)[-1, -1] @ robots.abb_irb1200().M, path.frames(path.s_curve(5001))[-1], atol=1e-12
     )

@@ -178,11 +178,30 @@ def test_an_ellipsoid_has_its_axes_and_may_be_flat():
     axes = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]
     lengths, at = np.array([0.3, 0.2, 0.0]), np.array([0.1, 0.2, 0.3])
     scene.ellipsoid("/ck/e", axes, lengths, at)
-    surface = scene.parts["/ck/e"][0].mesh()
+    surface = scene.parts["/ck/e/body"][0].mesh().moved(scene.worlds(["/ck/e/body"])["/ck/e/body"])
     local = (surface.vertices - at) @ axes
     np.testing.assert_allclose(np.abs(local).max(axis=0)[:2], lengths[:2], rtol=0.01)
     assert np.abs(local[:, 2]).max() < 1e-3
     assert np.isfinite(surface.normals).all()
+    for k in range(2):
+        rod = (placed(scene, f"/ck/e/axis{k + 1}") - at) @ axes
+        assert np.abs(rod[:, k]).max() == pytest.approx(lengths[k])
+        assert np.abs(np.delete(rod, k, axis=1)).max() < 0.01, "a rod is stretched along itself only"
+
+
+def test_an_ellipsoid_moves_with_the_pose_and_is_sent_once():
+    scene = Scene()
+    scene.robot(robots.planar_2r())
+    scene.ellipsoid("/ck/e", np.eye(3), np.array([0.3, 0.2, 0.1]), np.zeros(3))
+    sent, first = dict(scene.commands), scene.pose()
+    scene.ellipsoid("/ck/e", np.eye(3), np.array([0.1, 0.2, 0.3]), np.ones(3))
+    assert scene.commands == sent
+    assert scene.moving[2:] == ["/ck/e/body", "/ck/e/axis1", "/ck/e/axis2", "/ck/e/axis3"]
+    np.testing.assert_array_equal(scene.pose()[:2], first[:2])
+    body = [[0.1, 0, 0, 1], [0, 0.2, 0, 1], [0, 0, 0.3, 1], [0, 0, 0, 1]]
+    np.testing.assert_allclose(scene.pose()[2], body)
+    scene.remove("/ck/e")
+    assert scene.moving == ["/ck/robot/1", "/ck/robot/2"]
 
 
 @pytest.mark.parametrize("vector", [[0, 0, 0], [np.nan, 0, 0]])

@@ -21,7 +21,7 @@ def sizes_of_the_blocks(J):  # TPK4170 report, eq. 5.7: a block is 0
     return -np.linalg.norm(J[:3, 3:]) * np.linalg.norm(J[3:, :3])
 
 
-def shoulder(theta2, a1, a2, a3, d4, higher=-1):
+def shoulder(theta2, a1, a2, a3, d4, *, higher=-1):
     reach = np.clip(-(a1 + a2 * np.cos(theta2)) / np.hypot(a3, d4), -1, 1)
     return np.arctan2(a3, d4) + higher * np.arccos(reach) - theta2
 

@@ -3,12 +3,13 @@
 import numpy as np
 
 from coursekit.kinematics import robots
+from coursekit.kinematics.robot import Robot
 from coursekit.view.controls import Choice, Toggle, joint_sliders
 from coursekit.view.panel import Panel
 from coursekit.view.scene import Scene
 
 
-def explore(robot=None, height=470):
+def explore(robot: Robot | None = None, height: int = 470) -> Panel:
     """Open the explorer of standard DH, modified DH and the product of exponentials.
 
     Sliders move the arm; switches show the frames that standard DH and modified DH attach to its links, the

@@ -3,8 +3,9 @@
 import numpy as np
 
 from coursekit.kinematics import ik, robots, rotations
+from coursekit.kinematics.robot import Robot
 from coursekit.view import text
-from coursekit.view.controls import Action, Slider, Sliders, Table, Toggle, joint_sliders
+from coursekit.view.controls import Action, Control, Slider, Sliders, Table, Toggle, joint_sliders
 from coursekit.view.paint import PALETTE
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
@@ -16,7 +17,7 @@ GUESS = (-1.0, -2.0, 1.0, 0.0, 0.3, 0.0)
 STEPS = 50
 
 
-def explore_inverse(robot=None, height=470):
+def explore_inverse(robot: Robot | None = None, height: int = 470) -> Panel:
     """Open the explorer of inverse kinematics.
 
     Six sliders say where the tool should be. The branch chosen in the table is drawn solid, every other
@@ -48,15 +49,16 @@ def explore_inverse(robot=None, height=470):
         else:
             scene.remove("/ck/newton")
 
-    controls = [
+    guess = joint_sliders(robot, np.clip(np.resize(GUESS, robot.n), robot.q_min, robot.q_max), name="guess")
+    for slider in guess.sliders:
+        slider.label = f"guess {slider.label}"
+    controls: list[Control | Sliders] = [
         Sliders("pose", _pose_sliders(target, np.ceil(12 * scene.size) / 10)),
         Toggle("others", "other solutions", start=True),
         Toggle("trace", "Newton's way"),
         Action("steps", "show Newton's steps", lambda panel: panel.play_theta(state.steps(), fps=2.0)),
-        joint_sliders(robot, np.clip(np.resize(GUESS, robot.n), robot.q_min, robot.q_max), name="guess"),
+        guess,
     ]
-    for slider in controls[-1].sliders:
-        slider.label = f"guess {slider.label}"
     return Panel(
         "inverse",
         scene,

@@ -3,6 +3,7 @@
 import numpy as np
 
 from coursekit.kinematics import ik, jacobians, robots, singularity
+from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Action, Slider, Toggle, joint_sliders
 from coursekit.view.panel import Panel
@@ -22,7 +23,7 @@ METHODS = {
 }
 
 
-def explore_jacobians(robot=None, height=470):
+def explore_jacobians(robot: Robot | None = None, height: int = 470) -> Panel:
     """Open the explorer of Jacobian methods.
 
     The sliders set the configuration. At the tool stand the ellipsoids of its linear and angular velocity
@@ -42,14 +43,17 @@ def explore_jacobians(robot=None, height=470):
     scene.frame("/ck/target", runs.target, letter="d", size=0.14 * scene.size)
     drawn = {part: round(scale * scene.size, 2) for part, scale in SCALE.items()}  # so that the text is exact
 
-    def update(values):
-        theta = values["theta"]
-        scene.set_theta("robot", theta)
+    def draw(theta):
         J, tool = robot.jacobian_geometric(theta), robot.fk(theta)[:3, 3]
         for part, scale in drawn.items():
-            found, path = jacobians.ellipsoid(J, part), f"/ck/{part}"
-            scene.ellipsoid(path, found.axes, scale * found.lengths, tool, COLOR[part])
-            scene.show(path, values[part])
+            found = jacobians.ellipsoid(J, part)
+            scene.ellipsoid(f"/ck/{part}", found.axes, scale * found.lengths, tool, COLOR[part])
+
+    def update(values):
+        scene.set_theta("robot", values["theta"])
+        draw(values["theta"])
+        for part in drawn:
+            scene.show(f"/ck/{part}", values[part])
 
     def words(values):
         lines = [*_lengths(robot, values, drawn), *_methods(robot, values["theta"]), runs.words(values)]
@@ -65,8 +69,8 @@ def explore_jacobians(robot=None, height=470):
             Slider("damping", 0.1, 0.01, 1.0, step=0.01, label="damping k"),
             Action("bent", "home pose", lambda panel: panel.set(theta=robot.home)),
             Action("near", "near the singularity", lambda panel: panel.set(theta=near)),
-            Action("newton", "play Newton", lambda panel: runs.play(panel, "newton")),
-            Action("damped", "play damped", lambda panel: runs.play(panel, "damped")),
+            Action("newton", "play Newton", lambda panel: runs.play(panel, "newton", draw)),
+            Action("damped", "play damped", lambda panel: runs.play(panel, "damped", draw)),
         ],
         update,
         words,
@@ -108,10 +112,10 @@ class _Runs:
             }
         return self._found
 
-    def play(self, panel, name):
-        """Show the steps of one method, two a second."""
+    def play(self, panel, name, draw):
+        """Show the steps of one method, two a second; draw(theta) moves the ellipsoids along."""
         steps = [step.theta for step in self.found(panel.values)[name].history]
-        panel.play_theta(np.array(steps), fps=2.0)
+        panel.play_theta(np.array(steps), fps=2.0, follow=draw)
 
     def words(self, values):
         """Steps and longest step of both methods."""

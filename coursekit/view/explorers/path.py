@@ -1,8 +1,10 @@
 """Notebook 06: an arm that draws a letter S on a sphere, every way it can, as fast as its joints allow."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from coursekit.kinematics import ik, path, robots
+from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Choice, Table, Toggle
 from coursekit.view.panel import Panel
@@ -20,7 +22,7 @@ CAPTION = (
 )
 
 
-def explore_path(robot=None, points=None, height=470):
+def explore_path(robot: Robot | None = None, points: ArrayLike | None = None, height: int = 470) -> Panel:
     """Open the explorer of a path: a curve on a sphere with its outward normals, and the arm that follows it.
 
     The buttons under the picture play, pause and scrub the motion, in real time at the largest speed that
@@ -116,7 +118,7 @@ class _Run:
         self.limit = path.speed_limit(self.q, self.points, bounds)
         self.faulty = path.speed_limit(_wrapped(self.q), self.points, bounds)
         before, self.motion = self.motion, (n, self.branch, *bounds)
-        if before and before[:2] != self.motion[:2]:
+        if self.motion != before:
             self.place = 0
         return self.motion != before
 
@@ -133,9 +135,9 @@ class _Run:
         self.sending = False
 
     def rested(self, change):
-        """The motion was paused or scrubbed: text and plot follow."""
-        if change.new >= 0 and not self.sending:
-            self.place = int(self.shown[min(change.new, len(self.shown) - 1)])
+        """The motion was paused or scrubbed (or reset: -1): arm, text and plot follow."""
+        if not self.sending:
+            self.place = int(self.shown[np.clip(change.new, 0, len(self.shown) - 1)])
             self.panel.refresh()
 
     # -- words, table, plot
@@ -162,7 +164,7 @@ class _Run:
         inside = "inside" if self.robot.within_limits(theta) else "outside"
         speed, bound = text.number(self.limit.speed[k], 4), text.number(self.bounds[joint])
         lines = [
-            f"{self.names[k]}, {self._at([self.place])[0]}",
+            self.names[k],  # the point of the path and its rates stand beside the buttons of the motion
             f"joints {text.degrees(theta)}: {inside} the limits",
             f"largest speed {speed} m/s: joint {joint + 1} at {bound} rad/s {where}",
         ]

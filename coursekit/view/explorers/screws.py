@@ -3,13 +3,14 @@
 import numpy as np
 
 from coursekit.kinematics import dh, lie, robots
+from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Choice, Slider
 from coursekit.view.panel import Panel
 from coursekit.view.scene import Scene
 
 
-def explore_screws(robot=None, height=470):
+def explore_screws(robot: Robot | None = None, height: int = 470) -> Panel:
     """Open the explorer of screws: a joint axis, a point q on it, v = -w x q, and the column of S or B.
 
     The arm stands at zero and only the chosen joint turns. The point q can be slid along its axis, and the

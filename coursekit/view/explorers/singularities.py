@@ -1,8 +1,10 @@
 """Notebook 04: det J and its factors live, what is lost, and a map of the singularities over two joints."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from coursekit.kinematics import robots, singularity
+from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Action, Choice, Toggle, joint_sliders
 from coursekit.view.figures import nb04
@@ -14,7 +16,7 @@ UNITS = {"wrist": "", "elbow": " m^2", "shoulder": " m"}
 NEAR = 0.05  # relative factor below which a singularity is called near: about 3 degrees
 
 
-def explore_singularities(robot=None, height=470):
+def explore_singularities(robot: Robot | None = None, height: int = 470) -> Panel:
     """Open the explorer of singularities.
 
     Sliders move the arm. The text gives det J, its three factors, the smallest singular value, the rank and
@@ -105,7 +107,7 @@ def explore_singularities(robot=None, height=470):
     return panel
 
 
-def nearest(robot, theta, name):
+def nearest(robot: Robot, theta: ArrayLike, name: str) -> np.ndarray | None:
     """The configuration nearest to theta, by one joint and inside the limits, where a factor is 0; or None.
 
     A factor is A + B cos + C sin of any one joint angle, so its values at three angles tell its zeros.
@@ -132,7 +134,7 @@ def nearest(robot, theta, name):
     return min(found, key=lambda end: np.abs(end - theta).max(), default=None)
 
 
-def words(robot, theta):
+def words(robot: Robot, theta: ArrayLike) -> str:
     """The numbers of the picture: determinant, factors, smallest singular value, rank, name, what is lost."""
     split = singularity.factors(robot, theta)
     parts = [f"{name} {text.number(split[name], 5)}{unit}" for name, unit in UNITS.items()]

@@ -1,10 +1,45 @@
 """Pictures of the notebooks, one file each: what needs more lines than a cell should have."""
 
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
 from coursekit.view.paint import PALETTE
+
+if TYPE_CHECKING:
+    from mpl_toolkits.mplot3d import Axes3D
 
 INK = "#2B3038"  # links, notes and thin lines
 
 
-def palette(name):
+def palette(name: str) -> str:
     """A colour of the house as matplotlib writes it, so that a figure looks like its explorer."""
     return f"#{PALETTE[name]:06X}"
+
+
+def axes_3d(count: int, size: tuple[float, float]) -> np.ndarray:
+    """`count` empty axes in 3D side by side; size in inches."""
+    import matplotlib.pyplot as plt
+
+    _, axes = plt.subplots(
+        1, count, figsize=size, subplot_kw={"projection": "3d"}, squeeze=False, layout="constrained"
+    )
+    for ax in axes[0]:
+        ax.set_proj_type("ortho")
+        for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
+            axis.pane.set_facecolor("#F6F7F9")
+            axis._axinfo["grid"].update(color="#E1E5EA", linewidth=0.6)
+    return axes[0]
+
+
+def limits_3d(ax: Axes3D, limits: Sequence[tuple[float, float]], ticks: Iterable[float], unit: str) -> None:
+    """Equal axes over three pairs (low, high), with those of the ticks that lie inside."""
+    for letter, (low, high) in zip("xyz", limits, strict=True):
+        ax.set(**{f"{letter}lim": (low, high), f"{letter}label": f"{letter} [{unit}]"})
+        inside = [t for t in ticks if low <= t <= high]
+        ax.set(**{f"{letter}ticks": inside})
+    ax.set_box_aspect([high - low for low, high in limits], zoom=0.95)
+    ax.tick_params(labelsize=8, pad=-2)

@@ -3,29 +3,33 @@
 Every function shows one figure and returns None.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from coursekit.kinematics import dh
-from coursekit.view.figures import INK, palette
+from coursekit.kinematics.robot import Robot
+from coursekit.view.figures import INK, axes_3d, limits_3d, palette
 
 CROWD = 0.1  # m: frames nearer to each other than this are fanned out
 
 
-def half_steps(a=0.5, alpha=0.9, d=0.4, theta=0.7):
+def half_steps(a: float = 0.5, alpha: float = 0.9, d: float = 0.4, theta: float = 0.7) -> None:
     """One row of a standard table: frame i - 1, the frame i' after the turn and shift on z, and frame i."""
     first = dh.Table([0.0], [0.0], [d], [theta]).fk([0.0])
     last = dh.Table([a], [alpha], [d], [theta]).fk([0.0])
-    (ax,) = _axes_3d(1, (6.4, 4.6))
+    (ax,) = axes_3d(1, (6.4, 4.6))
     for T, length in ((np.eye(4), 0.62), (last, 0.34)):  # the two joint axes
         ends = T[:3, 3] + np.outer([-0.5 * length, length], T[:3, 2])
         ax.plot(*ends.T, ls=(0, (6, 3)), lw=1, color=palette("axis"))
     for T in (np.eye(4), first, last):
         _triad(ax, T, 0.16)
-    for ends, name, color in (
+    for pair, name, color in (
         ([np.zeros(3), first[:3, 3]], "d", "trace"),
         ([first[:3, 3], last[:3, 3]], "a", "accent"),
     ):
-        ends = np.array(ends)
+        ends = np.array(pair)
         ax.plot(*ends.T, lw=2.5, color=palette(color), alpha=0.8)
         ax.text(
             *(ends.mean(axis=0) + [0.03, 0, 0.03]), name, fontsize=13, style="italic", color=palette(color)
@@ -34,16 +38,18 @@ def half_steps(a=0.5, alpha=0.9, d=0.4, theta=0.7):
     tilted = np.eye(4)
     tilted[:3, :3], tilted[:3, 3] = first[:3, [1, 2, 0]], last[:3, 3]  # alpha turns about x
     _arc(ax, tilted, np.pi / 2, np.pi / 2 + alpha, 0.12, "α", "accent")
-    _limits(ax, [(-0.15, 0.65), (-0.2, 0.6), (-0.2, 0.75)], ticks=(0, 0.25, 0.5), unit="m")
+    limits_3d(ax, [(-0.15, 0.65), (-0.2, 0.6), (-0.2, 0.75)], ticks=(0, 0.25, 0.5), unit="m")
     ax.view_init(20, -18)
     _name(ax, [np.eye(4), first, last], ["i−1", "i′", "i"], 0.2)
     _show()
 
 
-def placements(robot, fan=(0.0, 0.0, 0.32)):
+def placements(robot: Robot, fan: ArrayLike = (0.0, 0.0, 0.32)) -> None:
     """The frames of the standard and of the modified table of one robot at theta = 0, side by side."""
+    if robot.standard_dh is None or robot.modified_dh is None:
+        raise ValueError(f"{robot.name} has no DH tables of both conventions")
     zero = np.zeros(robot.n)
-    axes = _axes_3d(2, (9.6, 5.0))
+    axes = axes_3d(2, (9.6, 5.0))
     for ax, table, axis in zip(axes, (robot.standard_dh, robot.modified_dh), ("i + 1", "i"), strict=True):
         frames = np.concatenate([table.base[None], table.frames(zero)])
         _scene(ax, robot, zero, frames, [str(i) for i in range(robot.n + 1)], np.array(fan))
@@ -51,10 +57,12 @@ def placements(robot, fan=(0.0, 0.0, 0.32)):
     _show()
 
 
-def poses(robot, *thetas, fan=(0.3, 0.0, 0.1)):
+def poses(robot: Robot, *thetas: Sequence[float] | np.ndarray, fan: ArrayLike = (0.3, 0.0, 0.1)) -> None:
     """The modified frames and the tool frame of a robot in several configurations, side by side."""
+    if robot.modified_dh is None:
+        raise ValueError(f"{robot.name} has no modified DH table")
     names = [*(str(i + 1) for i in range(robot.n)), "tool"]
-    axes = _axes_3d(len(thetas), (9.6, 6.2))
+    axes = axes_3d(len(thetas), (9.6, 6.2))
     for ax, theta in zip(axes, thetas, strict=True):
         frames = np.concatenate([robot.modified_dh.frames(theta), robot.fk(theta)[None]])
         _scene(ax, robot, theta, frames, names, np.array(fan))
@@ -62,7 +70,7 @@ def poses(robot, *thetas, fan=(0.3, 0.0, 0.1)):
     _show()
 
 
-def near_parallel(tilt, d, change, marked):
+def near_parallel(tilt: ArrayLike, d: ArrayLike, change: ArrayLike, marked: float) -> None:
     """How far the common normal runs away, and how little the screw changes, over the tilt of an axis."""
     import matplotlib.pyplot as plt
 
@@ -83,29 +91,6 @@ def _show():
     import matplotlib.pyplot as plt
 
     plt.show()
-
-
-def _axes_3d(count, size):
-    import matplotlib.pyplot as plt
-
-    _, axes = plt.subplots(
-        1, count, figsize=size, subplot_kw={"projection": "3d"}, squeeze=False, layout="constrained"
-    )
-    for ax in axes[0]:
-        ax.set_proj_type("ortho")
-        for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
-            axis.pane.set_facecolor("#F6F7F9")
-            axis._axinfo["grid"].update(color="#E1E5EA", linewidth=0.6)
-    return axes[0]
-
-
-def _limits(ax, limits, ticks, unit):
-    for letter, (low, high) in zip("xyz", limits, strict=True):
-        ax.set(**{f"{letter}lim": (low, high), f"{letter}label": f"{letter} [{unit}]"})
-        inside = [t for t in ticks if low <= t <= high]
-        ax.set(**{f"{letter}ticks": inside})
-    ax.set_box_aspect([high - low for low, high in limits], zoom=0.95)
-    ax.tick_params(labelsize=8, pad=-2)
 
 
 def _triad(ax, T, length):
@@ -169,6 +154,6 @@ def _scene(ax, robot, theta, frames, names, fan):
         _triad(ax, moved, 0.11)
     points = np.concatenate([points, shown[:, :3, 3]])
     low, high = points.min(axis=0) - 0.16, points.max(axis=0) + 0.16
-    _limits(ax, list(zip(low, high, strict=True)), ticks=np.arange(-2, 2.1, 0.5), unit="m")
+    limits_3d(ax, list(zip(low, high, strict=True)), ticks=np.arange(-2, 2.1, 0.5), unit="m")
     ax.view_init(16, -62)
     _name(ax, shown, names, 0.11)

@@ -1,11 +1,14 @@
 """Pictures of notebook 02: the drawing that M and S are read from, and the axes in space."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from coursekit.kinematics.robot import Robot
 from coursekit.view.figures import INK, palette
 
 
-def drawing():
+def drawing() -> None:
     """Side view of the KR6 at zero with its lengths in mm: y points into the page."""
     import matplotlib.pyplot as plt
 
@@ -32,7 +35,7 @@ def drawing():
     _dimension(ax, (420, 400), (420, 435), "35")
     for origin, letter in (((0, 0), "s"), ((980, 435), "b")):
         for step, axis, name in (((75, 0), "x", "x"), ((0, 75), "z", "z")):
-            tip = np.add(origin, step)
+            tip = (origin[0] + step[0], origin[1] + step[1])
             ax.annotate("", tip, origin, arrowprops={"arrowstyle": "-|>", "color": palette(axis), "lw": 2})
             ax.annotate(name, tip, (3, 3), textcoords="offset points", color=palette(axis))
         ax.annotate(f"{{{letter}}}", origin, (-4, -16), textcoords="offset points", color=INK)
@@ -41,14 +44,16 @@ def drawing():
     plt.show()
 
 
-def axes_in_space(robot, along=(0, 0, 0, 0.1, 0, -0.3), length=0.16):
+def axes_in_space(
+    robot: Robot, along: Sequence[float] | np.ndarray = (0, 0, 0, 0.1, 0, -0.3), length: float = 0.16
+) -> None:
     """Every joint axis of a robot at zero as an arrow with its number, and the line of links.
 
     `along` shifts each arrow on its axis (m), so that arrows on one line stand apart.
     """
     import matplotlib.pyplot as plt
 
-    _, ax = plt.subplots(figsize=(7.4, 4.8), subplot_kw={"projection": "3d"}, layout="constrained")
+    ax = plt.figure(figsize=(7.4, 4.8), layout="constrained").add_subplot(projection="3d")
     ax.set_proj_type("ortho")
     points = robot.link_frames(np.zeros(robot.n))[:, :3, 3]
     elbow = points[2] + [0, 0, points[3, 2] - points[2, 2]]  # where the forearm begins

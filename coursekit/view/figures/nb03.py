@@ -3,14 +3,17 @@
 Every function shows one figure and returns None.
 """
 
+from collections.abc import Iterable, Mapping, Sequence
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from coursekit.view.figures import INK, palette
 
 STYLES = (("accent", "o-"), ("trace", "s--"), ("body", "^-."), ("axis", "D:"))
 
 
-def elbows(lengths, solutions):
+def elbows(lengths: ArrayLike, solutions: Iterable[Sequence[float] | np.ndarray]) -> None:
     """The arm in its own plane for both (theta2, theta3): the upper elbow solid, the lower one dashed."""
     a1, d1, a2, a3, d4 = 1000 * np.asarray(lengths)
     ax = _axes((6.4, 4.6))
@@ -35,7 +38,7 @@ def elbows(lengths, solutions):
     _show()
 
 
-def error_along_path(error):
+def error_along_path(error: ArrayLike) -> None:
     """FK(IK) - T, the largest entry, for every pose (rows) and branch (columns)."""
     ax = _axes((6.4, 3.4))
     shown = np.maximum(error, 1e-17)
@@ -47,7 +50,7 @@ def error_along_path(error):
     _show()
 
 
-def newton(runs):
+def newton(runs: Mapping[str, ArrayLike]) -> None:
     """Largest entry of FK - T_sd before each step. runs: label -> list of errors."""
     ax = _axes((6.4, 3.6))
     for (label, errors), (color, style) in zip(runs.items(), STYLES, strict=False):
@@ -57,7 +60,7 @@ def newton(runs):
     _show()
 
 
-def rates(noise, nearest, converged):
+def rates(noise: Sequence[float] | np.ndarray, nearest: ArrayLike, converged: ArrayLike) -> None:
     """Shares in percent over the noise of the guess."""
     ax = _axes((6.4, 3.4))
     ax.semilogx(noise, nearest, "o-", color=palette("accent"), label="of these, at the nearest solution")
@@ -69,7 +72,7 @@ def rates(noise, nearest, converged):
     _show()
 
 
-def wandering(distance, closest):
+def wandering(distance: ArrayLike, closest: float) -> None:
     """Distance to a target out of reach before each step, and the nearest that can be reached."""
     ax = _axes((6.4, 3.4))
     ax.plot(distance, "o-", ms=3, lw=1, color=palette("trace"), label="Newton")

@@ -3,19 +3,27 @@
 Every public function but `draw_map` shows one figure and returns None.
 """
 
+from __future__ import annotations
+
+from collections.abc import Mapping
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from coursekit.kinematics import singularity
-from coursekit.view.figures import INK, palette
-from coursekit.view.figures.nb01 import _axes_3d, _limits
+from coursekit.kinematics.robot import Robot
+from coursekit.view.figures import INK, axes_3d, limits_3d, palette
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 STYLES = {"wrist": ":", "elbow": "--", "shoulder": "-"}
 CELLS = 81
 
 
-def draw_map(ax, robot, theta, i, j):
+def draw_map(ax: Axes, robot: Robot, theta: ArrayLike, i: int, j: int) -> None:
     """How far det J is from 0 over joints i and j (from 0), the others held at theta; lines where it is 0.
 
     Brightness: the root of |det| relative to what the arm could have. Every line belongs to one factor.
@@ -25,7 +33,7 @@ def draw_map(ax, robot, theta, i, j):
     x, y, relative = _factors_over(robot, i, j, tuple(held.round(9)))
     ends = np.degrees([x[0], x[-1], y[0], y[-1]])
     bright = np.sqrt(np.abs(np.prod(list(relative.values()), axis=0)))
-    ax.imshow(bright, extent=ends, origin="lower", aspect="auto", cmap="viridis", vmin=0, vmax=1)
+    ax.imshow(bright, extent=tuple(ends), origin="lower", aspect="auto", cmap="viridis", vmin=0, vmax=1)
     everywhere = []
     for name, value in relative.items():
         if np.abs(value).max() < 1e-9:
@@ -51,7 +59,7 @@ def _factors_over(robot, i, j, held):
     return x, y, {name: f + shape for name, f in singularity.relative_factors(robot, theta).items()}
 
 
-def singular_map(robot, theta, i, j, marks):
+def singular_map(robot: Robot, theta: ArrayLike, i: int, j: int, marks: Mapping[str, ArrayLike]) -> None:
     """`draw_map` with marked configurations. marks: text -> (theta_i, theta_j) in radians."""
     import matplotlib.pyplot as plt
 
@@ -59,15 +67,15 @@ def singular_map(robot, theta, i, j, marks):
     draw_map(ax, robot, theta, i, j)
     for (name, place), marker in zip(marks.items(), "XosD", strict=False):
         ax.plot(*np.degrees(place), marker, color="#F07A2B", mec="w", ms=9)
-        ax.annotate(name, np.degrees(place), (9, 6), textcoords="offset points", color="w", fontsize=9)
+        ax.annotate(name, tuple(np.degrees(place)), (9, 6), textcoords="offset points", color="w", fontsize=9)
     plt.show()
 
 
-def lost_lines(robot, poses):
+def lost_lines(robot: Robot, poses: Mapping[str, ArrayLike]) -> None:
     """The arm, its six axes (dashed) and the screw of the lost wrench. poses: title -> theta (6,)."""
     import matplotlib.pyplot as plt
 
-    axes = _axes_3d(len(poses), (9.6, 4.2))
+    axes = axes_3d(len(poses), (9.6, 4.2))
     for ax, (title, theta) in zip(axes, poses.items(), strict=True):
         wrench = singularity.lost_wrench(robot, theta)
         joints = robot.link_frames(theta)
@@ -81,13 +89,13 @@ def lost_lines(robot, poses):
         middle = wrench.point + wrench.direction * (wrench.direction @ (between - wrench.point))
         ends = middle + np.outer([-0.7, 0.7], wrench.direction)
         ax.plot(*ends.T, lw=2.4, ls="-" if pure else "-.", color=palette("accent"))
-        _limits(ax, [(-0.5, 0.8), (-0.5, 0.6), (0.0, 1.1)], ticks=(-0.5, 0, 0.5, 1), unit="m")
+        limits_3d(ax, [(-0.5, 0.8), (-0.5, 0.6), (0.0, 1.1)], ticks=(-0.5, 0, 0.5, 1), unit="m")
         ax.set_title(f"{title}, pitch {abs(wrench.pitch):.3f} m", fontsize=10)
         ax.view_init(18, -38)
     plt.show()
 
 
-def two_smallest(angles, values):
+def two_smallest(angles: ArrayLike, values: np.ndarray) -> None:
     """The two smallest singular values over an angle. angles (k,) in radians, values (k, 2)."""
     import matplotlib.pyplot as plt
 
@@ -100,7 +108,7 @@ def two_smallest(angles, values):
     plt.show()
 
 
-def rates_near(eps, rates, limits):
+def rates_near(eps: ArrayLike, rates: np.ndarray, limits: np.ndarray) -> None:
     """Joint rates over the distance from a singular pose. eps (k,), rates (k, n), limits (n,): log axes."""
     import matplotlib.pyplot as plt
 

@@ -3,16 +3,20 @@
 Every function shows one figure and returns None.
 """
 
-import numpy as np
+from collections.abc import Mapping, Sequence
 
-from coursekit.kinematics import jacobians
+import numpy as np
+from numpy.typing import ArrayLike
+
+from coursekit.kinematics import ik, jacobians
+from coursekit.kinematics.robot import Robot
 from coursekit.view.figures import palette
 
 PARTS = {"linear": ("trace", "m/s"), "angular": ("accent", "rad/s")}
 LINES = (("o", "-", "accent"), ("s", "--", "trace"), ("^", "-.", "axis"), ("D", ":", "bone"))
 
 
-def differences(step, central, forward):
+def differences(step: ArrayLike, central: ArrayLike, forward: ArrayLike) -> None:
     """Largest error of two difference quotients over the step size, both axes logarithmic."""
     import matplotlib.pyplot as plt
 
@@ -27,11 +31,11 @@ def differences(step, central, forward):
     plt.show()
 
 
-def ellipsoids(robot, **thetas):
+def ellipsoids(robot: Robot, **thetas: ArrayLike) -> None:
     """Linear (above) and angular (below) velocity ellipsoid, one column per named configuration."""
     import matplotlib.pyplot as plt
 
-    shape = {"subplot_kw": {"projection": "3d"}, "squeeze": False, "layout": "constrained"}
+    shape: dict = {"subplot_kw": {"projection": "3d"}, "squeeze": False, "layout": "constrained"}
     _, axes = plt.subplots(2, len(thetas), figsize=(7.0, 6.6), **shape)
     for row, (part, (color, unit)) in zip(axes, PARTS.items(), strict=True):
         found = {
@@ -45,7 +49,7 @@ def ellipsoids(robot, **thetas):
     plt.show()
 
 
-def steps(runs):
+def steps(runs: Mapping[str, Sequence[ik.Step]]) -> None:
     """How long each step of several iterations is. runs: name -> history of coursekit.ik."""
     import matplotlib.pyplot as plt
 

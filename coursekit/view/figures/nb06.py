@@ -3,7 +3,10 @@
 Every function shows one figure and returns None. s is the distance along the path in metres.
 """
 
+from collections.abc import Iterable, Mapping
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from coursekit.kinematics import path
 from coursekit.view.figures import palette
@@ -11,7 +14,13 @@ from coursekit.view.figures import palette
 STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1, 1, 1)))
 
 
-def on_sphere(points, T, every=10, center=path.SPHERE_CENTER, radius=path.SPHERE_RADIUS):
+def on_sphere(
+    points: np.ndarray,
+    T: np.ndarray,
+    every: int = 10,
+    center: Iterable[float] = path.SPHERE_CENTER,
+    radius: float = path.SPHERE_RADIUS,
+) -> None:
     """A curve on its sphere with every tenth tool frame: x outward, y along the curve."""
     import matplotlib.pyplot as plt
 
@@ -37,7 +46,7 @@ def on_sphere(points, T, every=10, center=path.SPHERE_CENTER, radius=path.SPHERE
     plt.show()
 
 
-def attitudes(s, quaternions, zyx, rotation_vectors):
+def attitudes(s: ArrayLike, quaternions: np.ndarray, zyx: np.ndarray, rotation_vectors: np.ndarray) -> None:
     """Three ways to write one attitude along the path, one panel each."""
     import matplotlib.pyplot as plt
 
@@ -54,7 +63,7 @@ def attitudes(s, quaternions, zyx, rotation_vectors):
     plt.show()
 
 
-def wrapped_and_continuous(s, wrapped, continuous, joint):
+def wrapped_and_continuous(s: np.ndarray, wrapped: np.ndarray, continuous: np.ndarray, joint: int) -> None:
     """One joint of one branch: angles within half a turn beside the continuous ones, and where they jump."""
     import matplotlib.pyplot as plt
 
@@ -72,7 +81,7 @@ def wrapped_and_continuous(s, wrapped, continuous, joint):
     plt.show()
 
 
-def rates(points, rate, bounds):
+def rates(points: ArrayLike, rate: Iterable[np.ndarray], bounds: Mapping[str, ArrayLike]) -> None:
     """Joint rates (m - 1, n) over the path, one panel per bound; dotted: that of the limiting joint."""
     import matplotlib.pyplot as plt
 

@@ -23,8 +23,9 @@ function makeLabels(THREE, viewer, pane, renderer) {
         const span = document.createElement("span");
         span.className = `ck-label ${cls || ""}`;
         span.textContent = text;
-        return { span, pos, path: splitPath(path), isWord: text.length > 2 && cls !== "tick", wide: 7 * text.length };
+        return { span, pos, path: splitPath(path), isWord: !["x", "y", "z", "tick"].includes(cls), wide: 7 * text.length };
       });
+      labels.sort((a, b) => b.isWord - a.isWord);
       layer.replaceChildren(...labels.map((label) => label.span));
     },
     place() {
@@ -33,15 +34,16 @@ function makeLabels(THREE, viewer, pane, renderer) {
       for (const { span, pos, path, isWord, wide } of labels) {
         const object = viewer.scene_tree.find(path).object;
         point.set(...pos).applyMatrix4(object.matrixWorld).project(viewer.camera);
-        const shown = point.z < 1 && visible(object);
-        span.style.display = shown ? "" : "none";
         const x = ((point.x + 1) / 2) * width;
         let y = ((1 - point.y) / 2) * height;
+        // words give way to each other, downwards; the letters of axes and the scale of the grid, by not being there
+        const isTaken = () => taken.some((other) => Math.abs(other.x - x) < (other.wide + wide) / 2 && Math.abs(other.y - y) < 13);
+        let shown = point.z < 1 && visible(object);
+        while (shown && isWord && isTaken()) y += 13;
+        shown = shown && !isTaken();
+        span.style.display = shown ? "" : "none";
         if (!shown) continue;
-        // words give way to each other, downwards; the letters of a frame and the scale of the grid stay where they are
-        const hidesOne = (other) => Math.abs(other.x - x) < (other.wide + wide) / 2 && Math.abs(other.y - y) < 13;
-        while (isWord && taken.some(hidesOne)) y += 13;
-        if (isWord) taken.push({ x, y, wide });
+        taken.push({ x, y, wide });
         span.style.transform = `translate(-50%, -50%) translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
       }
     },

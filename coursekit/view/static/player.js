@@ -25,11 +25,14 @@ function makePlayer({ show, report, wake }) {
   let motion = null; // {frames, fps}
   let frame = 0, playing = false, due = 0, last = null;
 
-  const go = (k) => {
+  const standAt = (k) => {
     frame = k;
     scrub.value = k;
     scrub.setAttribute("aria-valuetext", `pose ${k + 1} of ${motion.frames}`);
     count.textContent = `${k + 1} / ${motion.frames}`;
+  };
+  const go = (k) => {
+    standAt(k);
     show(k);
   };
   const mark = (on) => {
@@ -85,18 +88,21 @@ function makePlayer({ show, report, wake }) {
       if (at === null && motion.autoplay) setPlaying(true);
       else mark(false);
     },
-    pause() {
+    // the robot's own pose is shown instead: the motion waits at its start
+    leave() {
       if (playing) mark(false);
+      if (motion) standAt(0);
     },
     step,
     toggle: () => motion && play.click(),
-    // Once per animation frame. Keeps real time, yet does not skip a pose for a hiccup of less than three.
+    // Once per animation frame. Shows every pose as long as it is less than a second late; then it keeps up with time.
     tick(now) {
       if (!playing) return;
-      if (last !== null) due += ((now - last) / 1000) * motion.fps * Number(speed.value);
+      const perSecond = motion.fps * Number(speed.value);
+      if (last !== null) due += ((now - last) / 1000) * perSecond;
       last = now;
       if (due < 1) return;
-      const jump = due < 3 ? 1 : Math.floor(due);
+      const jump = Math.max(1, Math.floor(due - perSecond));
       due -= jump;
       const next = frame + jump;
       if (next < motion.frames) go(next);

@@ -66,12 +66,43 @@ function studioLight(MeshCat) {
   return shared.studioLight;
 }
 
+// A picture of few pixels without smoothed edges, for frames that must be quick where there is no GPU: the page's
+// own canvas smooths and copies all its pixels, however few are drawn, which takes twice as long.
+function coarsePicture(THREE, context) {
+  let target = null, image = null;
+  return function draw(gl, scene, camera) {
+    const { width, height } = context.canvas;
+    if (!target) {
+      target = new THREE.WebGLRenderTarget(width, height);
+      target.texture.encoding = THREE.sRGBEncoding;
+    }
+    if (!image || image.width !== width || image.height !== height) {
+      target.setSize(width, height);
+      image = new ImageData(width, height);
+    }
+    const bytes = new Uint8Array(4 * width * height);
+    gl.setRenderTarget(target);
+    gl.render(scene, camera);
+    gl.readRenderTargetPixels(target, 0, 0, width, height, bytes);
+    gl.setRenderTarget(null);
+    for (let y = 0; y < height; y += 1) { // WebGL counts rows from below
+      image.data.set(bytes.subarray(4 * width * (height - 1 - y), 4 * width * (height - y)), 4 * width * y);
+    }
+    for (let i = 3; i < image.data.length; i += 4) { // colours were multiplied by their opacity
+      const alpha = image.data[i];
+      if (alpha > 0 && alpha < 255) for (let k = i - 3; k < i; k += 1) image.data[k] *= 255 / alpha;
+    }
+    context.putImageData(image, 0, 0);
+  };
+}
+
 // What meshcat's Viewer takes for its renderer: the page's one renderer, drawing into this view's own canvas.
 function canvasRenderer(MeshCat) {
   sharedRenderer(MeshCat); // throws here, and not at the first frame, where there is no WebGL
   const canvas = document.createElement("canvas");
   const context = canvas.getContext("2d");
   const inUse = new MeshCat.THREE.Vector2();
+  const drawCoarsely = coarsePicture(MeshCat.THREE, context);
   let width = 1, height = 1, ratio = 1;
   const facade = {
     domElement: canvas,
@@ -95,17 +126,18 @@ function canvasRenderer(MeshCat) {
     render(scene, camera) {
       const gl = sharedRenderer(MeshCat);
       const w = canvas.width, h = canvas.height;
+      gl.shadowMap.enabled = facade.shadows;
+      // few pixels means that frames are slow and that a full picture follows: the shadow waits for that
+      const shadowNow = facade.shadows && facade.shadowsStale && facade.coarseness === 1;
+      gl.shadowMap.needsUpdate = shadowNow;
+      if (shadowNow) facade.shadowsStale = false;
+      if (facade.coarseness < 1) return drawCoarsely(gl, scene, camera);
       gl.getSize(inUse);
       if (inUse.x < w || inUse.y < h) gl.setSize(Math.max(w, inUse.x), Math.max(h, inUse.y), false);
       gl.getSize(inUse);
       gl.setViewport(0, 0, w, h);
       gl.setScissor(0, 0, w, h);
       gl.setScissorTest(true);
-      gl.shadowMap.enabled = facade.shadows;
-      // few pixels means that frames are slow and that a full picture follows: the shadow waits for that
-      const shadowNow = facade.shadows && facade.shadowsStale && facade.coarseness === 1;
-      gl.shadowMap.needsUpdate = shadowNow;
-      if (shadowNow) facade.shadowsStale = false;
       gl.render(scene, camera);
       context.clearRect(0, 0, w, h);
       context.drawImage(gl.domElement, 0, inUse.y - h, w, h, 0, 0, w, h);
@@ -157,6 +189,8 @@ function plainMaterial(THREE, material) {
   return plain;
 }
 
+const QUICK = 20; // milliseconds: 30 frames a second leave 33, and the page wants some of them
+
 function makeStage(MeshCat, pane, quality) {
   const THREE = MeshCat.THREE, shared = page();
   const renderer = canvasRenderer(MeshCat);
@@ -187,7 +221,20 @@ function makeStage(MeshCat, pane, quality) {
     meshcatViewer.set_object.call(this, path, object);
   };
 
-  let request = 0, sharpen = 0, cost = 0, dead = false, lastMotion = -1e9;
+  let request = 0, sharpen = 0, dead = false, lastMotion = -1e9;
+  // While something moves: the most pixels (as a part of each side) with which a frame takes less than QUICK.
+  const levels = { auto: [1, 0.5, 0.35], low: [0.5, 0.35], high: [1] }[quality];
+  const cost = new Map(); // milliseconds of a frame at each level, as far as known
+  const levelNow = () => {
+    if (performance.now() - lastMotion > 150) return 1;
+    return levels.find((level) => (cost.get(level) || 0) < QUICK) || levels.at(-1);
+  };
+  const learn = (level, took) => {
+    if (stage.frames < 3) return; // the first frames compile shaders
+    cost.set(level, cost.has(level) ? 0.7 * cost.get(level) + 0.3 * took : took);
+    const finer = levels[levels.indexOf(level) - 1];
+    if (finer < 1) cost.set(finer, 0.98 * cost.get(finer)); // so that it gets another chance
+  };
   const stage = { viewer, renderer, beforeFrame: [], afterFrame: [], frames: 0, playing: () => false, resized() {} };
 
   const draw = (now) => {
@@ -196,19 +243,17 @@ function makeStage(MeshCat, pane, quality) {
     for (const act of stage.beforeFrame) act(now);
     // a cell out of sight is taken out of the page: it gets the pose, and is drawn when it comes back
     if (viewer.needs_render && pane.isConnected && !shared.contextLost) {
-      const coarse = quality === "low" || (quality === "auto" && cost > 45);
-      const wanted = coarse && performance.now() - lastMotion < 150 ? 0.5 : 1;
+      const wanted = levelNow();
       if (renderer.coarseness !== wanted) {
         renderer.coarseness = wanted;
         renderer.fitCanvas();
       }
       const begun = performance.now();
       viewer.render();
-      const took = performance.now() - begun;
-      if (wanted === 1) cost = stage.frames < 3 ? 0 : cost ? 0.7 * cost + 0.3 * took : took; // the first compile shaders
+      learn(wanted, performance.now() - begun);
       stage.frames += 1;
       clearTimeout(sharpen);
-      if (wanted < 1) sharpen = setTimeout(() => viewer.set_dirty(), 200); // full sharpness once it rests
+      if (wanted < 1) sharpen = setTimeout(() => viewer.set_dirty(), 300); // full sharpness once it rests
       for (const act of stage.afterFrame) act(now);
     }
     if (stage.playing()) stage.wake();

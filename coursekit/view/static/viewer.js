@@ -85,7 +85,7 @@ export default function () {
       const onPose = () => {
         moving = model.get("moving").map(splitPath);
         if (model.get("frame") >= 0) return;
-        player.pause();
+        player.leave();
         text.hidden = true;
         pose = floatsOf(model.get("pose"));
         stage.moved();
