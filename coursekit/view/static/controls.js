@@ -224,5 +224,6 @@ export default {
   render({ model, el }) {
     el.classList.add("ck-control");
     makers[model.get("kind")](model, el);
+    return () => el.replaceChildren();
   },
 };

@@ -167,6 +167,18 @@ function quietViewer(MeshCat, pane, renderer) {
   }
 }
 
+// JupyterLab puts its own class in place of ResizeObserver and never lets go of one, nor of what its callback can see:
+// hence a function that sees nothing else, and forgets what it called.
+function watchSize(pane, act) {
+  let resized = act;
+  const observer = new ResizeObserver(() => resized());
+  observer.observe(pane);
+  return () => {
+    observer.disconnect();
+    resized = () => {};
+  };
+}
+
 function release(object) {
   object.traverse((part) => {
     if (part.geometry) part.geometry.dispose();
@@ -282,16 +294,15 @@ function makeStage(MeshCat, pane, quality) {
   pane.addEventListener("pointerdown", () => { viewer.controls.enableZoom = true; pane.focus({ preventScroll: true }); });
   pane.addEventListener("pointerleave", () => { viewer.controls.enableZoom = false; });
 
-  const resize = new ResizeObserver(() => {
+  const unwatch = watchSize(pane, () => {
     viewer.set_3d_pane_size();
     stage.resized();
   });
-  resize.observe(pane);
   stage.destroy = () => {
     dead = true;
     cancelAnimationFrame(request);
     clearTimeout(sharpen);
-    resize.disconnect();
+    unwatch();
     shared.views.delete(stage);
     viewer.forgetListeners();
     viewer.controls.dispose();

@@ -21,7 +21,10 @@ export default function () {
       for (const [key, data] of Object.entries(model.get("commands"))) commands.set(key, bytesOf(data));
       model.on("msg:custom", (content, buffers) => update(model, content, buffers));
       askForBundle(model);
-      return () => commands.clear();
+      return () => {
+        commands.clear();
+        for (const empty of [{}, {}]) model.set("commands", empty); // twice: a model keeps what it was before, too
+      };
     },
 
     async render({ model, el, signal }) {
@@ -154,7 +157,10 @@ export default function () {
       for (const [name, act] of Object.entries(changes)) model.on(`change:${name}`, act);
       box.coursekit = { stage, viewer, player, page: page() }; // for the browser's console and the tests
 
-      return () => {
+      return () => { // the notebook keeps `el` and `model` of what is long gone: nothing may hang on them
+        for (const [name, act] of Object.entries(changes)) model.off(`change:${name}`, act);
+        delete box.coursekit;
+        el.replaceChildren();
         views.delete(view);
         stage.destroy();
       };
