@@ -105,10 +105,15 @@ def _samples(options: argparse.Namespace, rest: list[str]) -> None:
 
 
 def _execute(options: argparse.Namespace, rest: list[str]) -> None:
+    from nbclient.exceptions import CellExecutionError
+
     from .classroom import notebook
 
     for path in options.notebooks:
-        notebook.execute(path)
+        try:
+            notebook.execute(path)
+        except CellExecutionError as error:
+            raise ValueError(f"{path}, {error.ename}: {error.evalue}; nothing was stored") from None
         print(f"executed {path}")
 
 

@@ -172,11 +172,12 @@ def _command(folder: str, library: Path, limits: Limits, program: str | None) ->
         return ["env", "-i", *(f"{name}={value}" for name, value in environment.items()), *kernel]
     box = [program, "--unshare-all", "--die-with-parent", "--new-session", "--cap-drop", "ALL"]
     box += ["--hostname", "box", "--clearenv", "--proc", "/proc", "--dev", "/dev"]
+    # first, because the course itself may lie in /tmp
+    box += ["--size", str(limits.home), "--tmpfs", "/tmp", "--size", str(limits.home), "--tmpfs", "/dev/shm"]
     for path in _visible():
         box += ["--ro-bind", path, path]
     if "site-packages" in PACKAGE.parts:  # installed, not beside its notebooks: hide the real library
         box += ["--tmpfs", str(PACKAGE)]
-    box += ["--size", str(limits.home), "--tmpfs", "/tmp", "--size", str(limits.home), "--tmpfs", "/dev/shm"]
     for name, value in environment.items():
         box += ["--setenv", name, value]
     for fonts in _font_lists():  # finding all fonts anew would cost every kernel seconds

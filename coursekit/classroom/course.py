@@ -27,16 +27,15 @@ class Course:
     def units(self) -> list[str]:
         return sorted(path.stem for path in (self.classroom / "exercises").glob("nb*.py"))
 
-    def notebook(self, unit: str) -> Path | None:
-        """The unit's notebook, None if it does not exist (yet)."""
-        return next(iter(sorted(self.notebooks.glob(f"{unit[2:]}_*.ipynb"))), None)
-
-    def solved_notebook(self, unit: str) -> Path:
-        """The unit's notebook; ValueError if it does not exist."""
-        path = self.notebook(unit)
-        if path is None:
-            raise ValueError(f"no solved notebook of {unit} in {self.notebooks}")
-        return path
+    def notebook(self, unit: str) -> Path:
+        """The unit's solved notebook; ValueError if there is none, or a second one (somebody's copy)."""
+        found = sorted(self.notebooks.glob(f"{unit[2:]}_*.ipynb"))
+        if len(found) != 1:
+            names = " and ".join(path.name for path in found) or "none"
+            raise ValueError(
+                f"{unit} needs one notebook {unit[2:]}_*.ipynb in {self.notebooks}; found: {names}"
+            )
+        return found[0]
 
     def exercises(self, unit: str) -> list[Exercise]:
         return list(getattr(_module(self.classroom / "exercises" / f"{unit}.py"), "EXERCISES", ()))

@@ -63,7 +63,7 @@ def grade_class(
             "students' code runs in bubblewrap, which does not work here (Debian: apt install bubblewrap). "
             "--no-box grades without it: that code can then do whatever you can"
         )
-    units = [unit for unit in course.units if course.notebook(unit) and course.exercises(unit)]
+    units = [unit for unit in course.units if course.exercises(unit)]
     make = Jobs(course, units, seed=seed, box=box, limits=limits or Limits())
     out.mkdir(parents=True, exist_ok=True)
     with contextlib.ExitStack() as stack:
@@ -72,9 +72,7 @@ def grade_class(
         journal = Journal(out / "journal.jsonl", {"seed": seed, "box": box})
         stack.enter_context(contextlib.closing(journal))
         copies = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="submissions")))
-        handed_in = Submissions(
-            submissions, copies, {unit: course.solved_notebook(unit).name for unit in units}
-        )
+        handed_in = Submissions(submissions, copies, {unit: course.notebook(unit).name for unit in units})
         ahead = 2 * jobs + 2
         _canaries(run_all(executor, make.canaries(), ahead))
         everything = [(student, unit) for student in handed_in.students for unit in units]
@@ -102,7 +100,7 @@ class Jobs:
     def canaries(self) -> Iterator[dict]:
         """The solved notebooks and the untouched ones, graded as if they were handed in."""
         for unit in self._units:
-            solved = notebook.read(self._course.solved_notebook(unit))
+            solved = notebook.read(self._course.notebook(unit))
             for student, document in (("solved", solved), ("untouched", notebook.student_version(solved))):
                 yield self._job(student, unit, json.dumps(document).encode(), "")
 
@@ -112,7 +110,7 @@ class Jobs:
             "library": self._libraries[unit],
             "student": student,
             "unit": unit,
-            "name": self._course.solved_notebook(unit).name,
+            "name": self._course.notebook(unit).name,
             "notebook": None if data is None else base64.b64encode(data).decode(),
             "digest": digest(data),
             "note": note,

@@ -43,16 +43,16 @@ def export(out: Path, course: Course | None = None, seed: int = 0) -> None:
     out.mkdir(parents=True)
     (out / "nbgrader_config.py").write_text(CONFIG, encoding="utf-8")
     for unit in course.units:
-        path = course.notebook(unit)
-        if path is None or not course.exercises(unit):
+        if not course.exercises(unit):
             continue
+        path = course.notebook(unit)
         folder = out / "source" / path.stem
         folder.mkdir(parents=True)
         notebook.write(folder / path.name, _with_hidden_tests(course, unit, seed))
 
 
 def _with_hidden_tests(course: Course, unit: str, seed: int) -> dict:
-    document = notebook.read(course.solved_notebook(unit))
+    document = notebook.read(course.notebook(unit))
     exercises = {e.name: e for e in course.exercises(unit)}
     document["cells"] = [cell for cell in document["cells"] if "instructor" not in notebook.tags(cell)]
     for cell in document["cells"]:

@@ -23,7 +23,7 @@ class Submissions:
         for number, student in enumerate(sorted(p for p in folder.iterdir() if p.is_dir() or p.is_symlink())):
             self._numbers[student.name] = number
             for unit, name in names.items():
-                note = _copy(student, name, self._path(student.name, unit))
+                note = _copy(student, name, self._path(student.name, unit), set(names.values()))
                 self._notes[student.name, unit] = note
 
     @property
@@ -48,7 +48,7 @@ def digest(data: bytes | None) -> str:
     return "" if data is None else hashlib.sha256(data).hexdigest()
 
 
-def _copy(student: Path, name: str, target: Path) -> str:
+def _copy(student: Path, name: str, target: Path, expected: set[str]) -> str:
     """'' or why there is no copy. A link is never followed: it may point to somebody else's work."""
     if student.is_symlink():
         return "the student's folder is a link: not followed"
@@ -58,8 +58,9 @@ def _copy(student: Path, name: str, target: Path) -> str:
                 return "not a regular file"
             data = file.read(LARGEST + 1)
     except FileNotFoundError:
-        others = ", ".join(sorted(path.name for path in student.glob("*.ipynb"))[:5])
-        return "nothing handed in" + (f" under the name {name} (found: {others})" if others else "")
+        others = sorted(path.name for path in student.glob("*.ipynb") if path.name not in expected)
+        found = f" under the name {name} (found: {', '.join(others[:5])})" if others else ""
+        return "nothing handed in" + found
     except OSError:
         return "not a file that can be read, or a link (not followed)"
     if len(data) > LARGEST:

@@ -16,19 +16,16 @@ import numpy as np
 from . import compare, notebook
 from .check import salt
 from .course import Course, the_course
-from .exercise import Exercise, Misfit, answer, thaw
+from .exercise import Exercise, Misfit, answer, misshapen, thaw
 
 
 def write_samples(course: Course | None = None) -> list[str]:
-    """Write every unit's table; the list of units written."""
+    """Write every unit's table; the list of units."""
     course = course or the_course()
-    written = []
     for unit in course.units:
-        if course.notebook(unit) is not None:
-            course.samples_path(unit).parent.mkdir(exist_ok=True)
-            course.samples_path(unit).write_text(dump(table(course, unit)), encoding="utf-8", newline="\n")
-            written.append(unit)
-    return written
+        course.samples_path(unit).parent.mkdir(exist_ok=True)
+        course.samples_path(unit).write_text(dump(table(course, unit)), encoding="utf-8", newline="\n")
+    return course.units
 
 
 def dump(tables: dict) -> str:
@@ -56,7 +53,10 @@ def rows(course: Course, unit: str, exercise: Exercise, count: int, rng: np.rand
     """The examples of one exercise."""
     right = getattr(solutions(course, unit), exercise.name, None)
     if right is None:
-        raise ValueError(f"{course.solved_notebook(unit).name} holds no solution of {exercise.name}")
+        raise ValueError(
+            f"{course.notebook(unit).name} holds no solution of {exercise.name}: "
+            "no cell with nbgrader.solution in its metadata defines it"
+        )
     wrong = course.wrong(unit).get(exercise.name, {})
     return [_row(exercise, k, rng, right, wrong) for k in range(count)]
 
@@ -68,8 +68,12 @@ def _row(exercise: Exercise, k: int, rng, right, wrong: dict) -> dict:
         try:
             with np.errstate(all="ignore"):
                 parts = answer(exercise, function(*thaw(arguments)))
+            if function is right and (text := misshapen(exercise, parts)):
+                raise Misfit(text)
         except Misfit as misfit:
             raise ValueError(f"{exercise.name}, {what}: {misfit}") from None
+        except Exception as error:
+            raise ValueError(f"{exercise.name}, {what} raised {type(error).__name__}: {error}") from error
         return [
             compare.fingerprint(kind, part, exercise.tol, salt(exercise, k, i))
             for i, (kind, part) in enumerate(zip(exercise.kinds, parts, strict=True))
@@ -85,4 +89,4 @@ def _row(exercise: Exercise, k: int, rng, right, wrong: dict) -> dict:
 @cache
 def solutions(course: Course, unit: str) -> SimpleNamespace:
     """The functions of the unit's solved notebook."""
-    return notebook.references(course.solved_notebook(unit))
+    return notebook.references(course.notebook(unit))

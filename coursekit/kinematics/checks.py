@@ -53,9 +53,8 @@ def pose(T: ArrayLike, name: str) -> np.ndarray:
         raise ValueError(
             f"{name} is not in SE(3): R'R differs from the identity by {worst:.2g} in its rotation R"
         )
-    (a, b, c), (d, e, f), (g, h, i) = np.moveaxis(
-        R, (-2, -1), (0, 1)
-    )  # np.linalg.det takes ten times as long
+    (a, b, c), (d, e, f), (g, h, i) = np.moveaxis(R, (-2, -1), (0, 1))
+    # np.linalg.det takes ten times as long
     if np.any(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) < 0):
         raise ValueError(f"{name} is not in SE(3): det R = -1, so R is a reflection, not a rotation")
     if np.any(np.abs(T[..., 3, :] - [0, 0, 0, 1]) > POSE_TOLERANCE):

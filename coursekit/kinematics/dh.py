@@ -23,10 +23,9 @@ from . import checks, lie
 CONVENTIONS = ("standard", "modified")
 _JOINTS = {"r": "revolute", "revolute": "revolute", "p": "prismatic", "prismatic": "prismatic"}
 
-TURN_ABOUT_Z = np.array(
-    [0.0, 0, 1, 0, 0, 0]
-)  # the twist of a revolute joint, in the frame whose z is its axis
-SLIDE_ALONG_Z = np.array([0.0, 0, 0, 0, 0, 1])  # the twist of a prismatic joint
+# the twists of a revolute and of a prismatic joint, in the frame whose z is its axis
+TURN_ABOUT_Z = np.array([0.0, 0, 1, 0, 0, 0])
+SLIDE_ALONG_Z = np.array([0.0, 0, 0, 0, 0, 1])
 
 
 @dataclass(frozen=True, eq=False)

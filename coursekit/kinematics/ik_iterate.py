@@ -147,9 +147,8 @@ def closest(robot: Robot, goals: np.ndarray, theta: np.ndarray, tol: float, rows
         return theta, Jt[..., used], e, np.stack(error, axis=-1), (e * e).sum(axis=-1)
 
     hinges = np.array([kind == "revolute" for kind in robot.joint_types])
-    theta = np.where(
-        hinges, np.remainder(theta + np.pi, 2 * np.pi) - np.pi, theta
-    )  # far turns have few digits
+    # far turns have few digits
+    theta = np.where(hinges, np.remainder(theta + np.pi, 2 * np.pi) - np.pi, theta)
     here, damping2 = see(theta), np.full(len(theta), 1e-2)
     with np.errstate(all="ignore"):
         for _ in range(DOWNHILL):
@@ -232,9 +231,8 @@ def _error(tool, goal, m):
 
 def _from_quaternion(where, omega, tool, goal):
     """omega from lie.log3, which is exact at half a turn too, for the targets `where`."""
-    R_b, R_d = (
-        np.array(columns[:3]).reshape(3, 3, -1).T for columns in (tool, goal)
-    )  # transposed, one per target
+    # transposed, one per target
+    R_b, R_d = (np.array(columns[:3]).reshape(3, 3, -1).T for columns in (tool, goal))
     exact = lie.log3(np.swapaxes(R_d, -1, -2) @ R_b).T
     return exact[:, 0].tolist() if where is True else np.where(where, exact, omega)
 

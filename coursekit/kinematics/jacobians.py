@@ -15,9 +15,7 @@ from . import checks, lie
 from .robot import Robot
 
 PARTS = {"angular": slice(0, 3), "linear": slice(3, 6)}
-ROUNDING = (
-    8 * np.finfo(float).eps
-)  # a singular value smaller than this times the largest is rounding: it is 0
+ROUNDING = 8 * np.finfo(float).eps  # a singular value below this times the largest is rounding: it is 0
 
 __all__ = [
     "Ellipsoid",

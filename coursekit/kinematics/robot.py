@@ -47,15 +47,11 @@ class Robot:
     source: str = ""
     discrepancies: tuple[str, ...] = ()
     B: np.ndarray = field(init=False, repr=False)  # (6, n) body screws, Ad(M^-1) S
-    _exponentials: np.ndarray = field(init=False, repr=False)  # (n, 4, 16), see _exponential_constants
-    _exponentials_to_tool: np.ndarray = field(
-        init=False, repr=False
-    )  # the same, M folded into the last joint
+    _exponentials: np.ndarray = field(init=False, repr=False)  # (n, 4, 16), see screws.exponential_constants
+    _exponentials_to_tool: np.ndarray = field(init=False, repr=False)  # the same, M in the last joint
     _frames_at_zero: np.ndarray = field(init=False, repr=False)  # (n, 4, 4)
-    _axis_steps: np.ndarray = field(init=False, repr=False)  # (n, 4, 4), see _moved_screws
-    _slides: np.ndarray = field(
-        init=False, repr=False
-    )  # (n,) along the axis per rad or m: 0 for a hinge, else 1
+    _axis_steps: np.ndarray = field(init=False, repr=False)  # (n, 4, 4), see screws.steps_along
+    _slides: np.ndarray = field(init=False, repr=False)  # (n,), see screws.slide
 
     if TYPE_CHECKING:  # the constructor takes lists, too; fields say what __post_init__ makes of them
 
@@ -128,9 +124,8 @@ class Robot:
             raise ValueError(f"{name}: the axis of joint {np.argmin(length) + 1} has direction zero")
         unit = w / length
         slides = np.array([kind == "prismatic" for kind in dh.joint_types(joint_types, len(unit))])[:, None]
-        S = (
-            np.hstack([np.where(slides, 0.0, unit), np.where(slides, unit, -np.cross(unit, q))]).T + 0.0
-        )  # + 0.0: no -0
+        S = np.hstack([np.where(slides, 0.0, unit), np.where(slides, unit, -np.cross(unit, q))]).T
+        S = S + 0.0  # no -0
         return cls(S, M, joint_types=joint_types, **more)
 
     @classmethod

@@ -16,8 +16,8 @@ X, Y, Z = np.eye(3)
 def all() -> dict[str, Robot]:
     """Every robot of the catalogue by the name of its function. -> {name: Robot}
 
-    >>> sorted(all())[:3]
-    ['abb_irb1200', 'franka_panda', 'kawasaki_s030']
+    >>> all()["abb_irb1200"].name
+    'ABB IRB 1200-5/0.9'
     """
     makers = (
         kuka_kr6,

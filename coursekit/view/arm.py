@@ -214,9 +214,9 @@ def skeleton(robot: Robot) -> list[list[Part]]:
         goal = arm.joints[i + 1].enter if i + 1 < robot.n else arm.tool
         reach = 2.2 * joint.radius
         low, high = joint.enter - (reach if i else 0) * joint.along, joint.leave + reach * joint.along
-        parts = (
-            _dashes(low, high, 0.6 * r) + _stick(joint.enter, joint.leave, r) + _stick(joint.leave, goal, r)
-        )
+        # a rod that slides out takes the part along that lies in its sleeve at zero
+        start = joint.enter - (joint.travel[1] if joint.travel and joint.travel[1] > 0 else 0) * joint.along
+        parts = _dashes(low, high, 0.6 * r) + _stick(start, joint.leave, r) + _stick(joint.leave, goal, r)
         parts += [
             Part(ball(2 * r), "accent", frame_along([0, 0, 1], p), xray=0.7) for p in (joint.leave, goal)
         ]

@@ -14,10 +14,8 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
 
-THICKEST, THINNEST = (
-    0.078,
-    0.02,
-)  # radius of the first and of the last joint, as parts of the robot's total length
+# radius of the first and of the last joint, as parts of the robot's total length
+THICKEST, THINNEST = 0.078, 0.02
 
 
 @dataclass

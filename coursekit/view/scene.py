@@ -336,12 +336,10 @@ class Scene:
         for name, actor in self._actors.items():
             if actor.style == "ghost":
                 continue
-            turns = [kind == "revolute" for kind in actor.robot.joint_types]
-            joints = text.row(np.where(turns, np.degrees(actor.theta), 1000 * actor.theta), 1)
-            unit = "deg" if all(turns) else "deg or mm"
+            joints = _joints(actor.robot, actor.theta)
             tool = text.millimetres(actor.robot.fk(actor.theta)[:3, 3])
             who = actor.robot.name + ("" if name == "robot" else f" ({name})")
-            lines.append(f"{who}: joints {joints} {unit}; tool at {tool}")
+            lines.append(f"{who}: joints {joints}; tool at {tool}")
         if ghosts:
             lines.append(f"{ghosts} translucent arm" + ("s" if ghosts > 1 else ""))
         return "; ".join(lines) or "an empty scene"
@@ -382,6 +380,14 @@ def _angles(robot, theta):
     if theta.shape != (robot.n,):
         raise ValueError(f"{robot.name} has {robot.n} joints: theta must be ({robot.n},), got {theta.shape}")
     return theta
+
+
+def _joints(robot, theta):
+    """Joint values in words: one unit for all, or each with its own."""
+    if "prismatic" not in robot.joint_types:
+        return text.degrees(theta)
+    say = {"revolute": text.degrees, "prismatic": text.millimetres}
+    return "(" + ", ".join(say[kind](q) for kind, q in zip(robot.joint_types, theta, strict=True)) + ")"
 
 
 def _below(path, root):

@@ -93,9 +93,8 @@ def _key_light(size, floor):
 
 def _sky():
     light = {"type": "HemisphereLight", "color": 0xF3F7FF, "groundColor": 0xB9B2A8, "intensity": 0.2}
-    return document(
-        {**light, "matrix": _at(0, 0, 1)}
-    )  # its place is its direction; the default would be sideways
+    # its place is its direction; the default would be sideways
+    return document({**light, "matrix": _at(0, 0, 1)})
 
 
 def _floor(size, floor):

@@ -15,6 +15,8 @@ import urllib.request
 import nbformat
 import numpy as np
 
+from coursekit.classroom.lab import private_folders
+
 # WebGL without a graphics processor, and nothing that calls home.
 CHROMIUM_FLAGS = (
     "--no-sandbox",
@@ -37,60 +39,71 @@ def chromium():
     return os.environ.get("CHROMIUM") or next(filter(None, map(shutil.which, names)), None)
 
 
-class Lab:
-    """JupyterLab on a free port, with every directory it writes to inside `folder`."""
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
 
-    def __init__(self, folder):
-        self.folder = folder
-        self.notebooks = folder / "notebooks"
-        self.notebooks.mkdir()
-        with socket.socket() as probe:
-            probe.bind(("127.0.0.1", 0))
-            self.port = probe.getsockname()[1]
-        self.token = secrets.token_hex(16)
-        self.url = f"http://127.0.0.1:{self.port}"
-        environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}
-        for name in (
-            "JUPYTER_CONFIG_DIR",
-            "JUPYTER_DATA_DIR",
-            "JUPYTER_RUNTIME_DIR",
-            "IPYTHONDIR",
-            "MPLCONFIGDIR",
-        ):
-            environment[name] = str(folder / name.lower())
-        for name in ("JUPYTERLAB_SETTINGS_DIR", "JUPYTERLAB_WORKSPACES_DIR"):
-            environment[name] = str(folder / name.lower())
-        self.log = (folder / "lab.log").open("w")
-        command = [
-            sys.executable,
-            "-m",
-            "jupyterlab",
-            "--no-browser",
-            "--allow-root",
-            "--ServerApp.ip=127.0.0.1",
-        ]
-        command += [f"--ServerApp.port={self.port}", "--ServerApp.port_retries=0"]
-        command += [f"--ServerApp.root_dir={self.notebooks}", f"--IdentityProvider.token={self.token}"]
-        command += ["--LabApp.expose_app_in_browser=True"]
+
+class Server:
+    """A process that answers at `url`, and all that it starts; what it says goes to a log in `folder`."""
+
+    def __init__(self, name, url, command, folder, environment=None):
+        self.path = folder / f"{name}.log"
+        self.log = self.path.open("w")
         self.process = subprocess.Popen(
-            command, env=environment, stdout=self.log, stderr=self.log, start_new_session=True, cwd=folder
+            [sys.executable, "-m", *command],
+            cwd=folder,
+            env={**os.environ, **(environment or {})},
+            stdout=self.log,
+            stderr=self.log,
+            start_new_session=True,
         )
         try:
-            self._wait()
+            self._wait(url, 60)
         except BaseException:
             self.close()
             raise
 
-    def _wait(self, seconds=60):
+    def _wait(self, url, seconds):
         until = time.monotonic() + seconds
-        while time.monotonic() < until:
-            if self.process.poll() is not None:
-                raise RuntimeError(f"JupyterLab ended: {(self.folder / 'lab.log').read_text()[-2000:]}")
+        while time.monotonic() < until and self.process.poll() is None:
             with contextlib.suppress(OSError):
-                urllib.request.urlopen(f"{self.url}/api/status?token={self.token}", timeout=2).close()
+                urllib.request.urlopen(url, timeout=2).close()
                 return
             time.sleep(0.2)
-        raise RuntimeError(f"JupyterLab did not answer in {seconds} s")
+        raise RuntimeError(f"no answer from {url} in {seconds} s:\n{self.path.read_text()[-2000:]}")
+
+    def close(self):
+        """End it, and what it started."""
+        for sign in (signal.SIGINT, signal.SIGTERM):  # JupyterLab takes the second one for a yes
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(self.process.pid, sign)
+            time.sleep(0.1)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self.process.wait(20)
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.wait()
+        self.log.close()
+
+
+class Lab(Server):
+    """JupyterLab on a free port, with every directory it writes to inside `folder`."""
+
+    def __init__(self, folder):
+        self.notebooks = folder / "notebooks"
+        self.notebooks.mkdir()
+        port, self.token = free_port(), secrets.token_hex(16)
+        self.url = f"http://127.0.0.1:{port}"
+        environment = {**private_folders(folder), "PYTHONDONTWRITEBYTECODE": "1"}
+        for name in ("JUPYTERLAB_SETTINGS_DIR", "JUPYTERLAB_WORKSPACES_DIR"):
+            environment[name] = str(folder / name.lower())
+        command = ["jupyterlab", "--no-browser", "--allow-root", "--ServerApp.ip=127.0.0.1"]
+        command += [f"--ServerApp.port={port}", "--ServerApp.port_retries=0"]
+        command += [f"--ServerApp.root_dir={self.notebooks}", f"--IdentityProvider.token={self.token}"]
+        command += ["--LabApp.expose_app_in_browser=True"]
+        super().__init__("lab", f"{self.url}/api/status?token={self.token}", command, folder, environment)
 
     def write(self, name, *cells):
         """A notebook of code cells in the folder that JupyterLab shows."""
@@ -102,19 +115,6 @@ class Lab:
         }
         nbformat.write(notebook, self.notebooks / name)
         return name
-
-    def close(self):
-        """End the server and the kernels it started."""
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(self.process.pid, signal.SIGINT)
-            time.sleep(0.1)
-            os.killpg(self.process.pid, signal.SIGTERM)
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            self.process.wait(10)
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(self.process.pid, signal.SIGKILL)
-        self.process.wait()
-        self.log.close()
 
 
 class Notebook:

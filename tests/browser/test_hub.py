@@ -4,15 +4,9 @@ The hub runs everyone as its own user, on one machine: enough to show that nothi
 server, a port or an address of its own. It is no model for a real hub.
 """
 
-import contextlib
 import os
 import shutil
-import signal
-import socket
-import subprocess
 import sys
-import time
-import urllib.request
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -20,7 +14,7 @@ import numpy as np
 import pytest
 
 from coursekit import robots
-from tests.browser.lab import Notebook
+from tests.browser.lab import Notebook, Server, free_port
 
 pytestmark = [pytest.mark.browser, pytest.mark.hub]
 
@@ -30,17 +24,10 @@ PROXY = ROOT / ".venv" / "proxy" / "node_modules" / ".bin"
 PASSWORD = "kinematics-2026"
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
-class Hub:
+class Hub(Server):
     """JupyterHub and its proxy on free ports, with everything they write inside `folder`."""
 
     def __init__(self, folder, proxy):
-        self.folder = folder
         port, hub_port, api_port = free_port(), free_port(), free_port()
         self.address = f"127.0.0.1:{port}"
         notebooks = shutil.copytree(ROOT / "notebooks", folder / "notebooks")
@@ -63,39 +50,8 @@ c.Spawner.default_url = "/lab"
 c.Spawner.notebook_dir = {str(notebooks)!r}
 """
         )
-        self.log = (folder / "hub.log").open("w")
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "jupyterhub", "-f", str(config)],
-            cwd=folder,  # its data base, cookie secret and process numbers
-            stdout=self.log,
-            stderr=self.log,
-            start_new_session=True,
-        )
-        try:
-            self._wait()
-        except BaseException:
-            self.close()
-            raise
-
-    def _wait(self, seconds=60):
-        until = time.monotonic() + seconds
-        while time.monotonic() < until and self.process.poll() is None:
-            with contextlib.suppress(OSError):
-                urllib.request.urlopen(f"http://{self.address}/hub/login", timeout=2).close()
-                return
-            time.sleep(0.2)
-        raise RuntimeError(f"JupyterHub does not answer:\n{(self.folder / 'hub.log').read_text()[-2000:]}")
-
-    def close(self):
-        """End the hub, which ends its proxy and the users' servers."""
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(self.process.pid, signal.SIGTERM)
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            self.process.wait(20)
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(self.process.pid, signal.SIGKILL)
-        self.process.wait()
-        self.log.close()
+        # its data base, cookie secret and process numbers go to its folder
+        super().__init__("hub", f"http://{self.address}/hub/login", ["jupyterhub", "-f", str(config)], folder)
 
 
 class Account:

@@ -20,18 +20,12 @@ EXERCISES = [
     pytest.param(course, unit, exercise, id=f"{name}-{unit}-{exercise.name}")
     for name, course in COURSES.items()
     for unit in course.units
-    if course.notebook(unit)
     for exercise in course.exercises(unit)
 ]
 HINTS = [
     pytest.param(*p.values, hint, id=f"{p.id}-{hint.key}") for p in EXERCISES for hint in p.values[2].hints
 ]
-UNITS = [
-    pytest.param(c, unit, id=f"{n}-{unit}")
-    for n, c in COURSES.items()
-    for unit in c.units
-    if c.notebook(unit)
-]
+UNITS = [pytest.param(c, unit, id=f"{n}-{unit}") for n, c in COURSES.items() for unit in c.units]
 
 
 def verdict(course, unit, exercise, function):
@@ -139,3 +133,39 @@ def test_check_is_reachable_from_the_face():
     import coursekit
 
     assert coursekit.check is check
+
+
+# -- what an author reads who made a slip ------------------------------------------------------------------
+
+
+def course_with(tmp_path, exercise, wrong="lambda x: x + 1", solution="def double(x):\n    return 2 * x"):
+    """A course of one exercise, `double`, in a folder of its own."""
+    for folder in ("exercises", "mistakes"):
+        (tmp_path / folder).mkdir()
+    start = "from coursekit.classroom.exercise import Exercise, Hint\n"
+    (tmp_path / "exercises" / "nb01.py").write_text(f"{start}EXERCISES = [Exercise({exercise})]")
+    (tmp_path / "mistakes" / "nb01.py").write_text(f"WRONG = {{'double': {{'plus_one': {wrong}}}}}")
+    cell = {"cell_type": "code", "id": "a", "source": solution, "outputs": [], "execution_count": None}
+    cell["metadata"] = {"nbgrader": {"solution": True}}
+    notebook.write(tmp_path / "01_a.ipynb", {"cells": [cell], "metadata": {}})
+    return Course(tmp_path, tmp_path)
+
+
+GOOD = "'double(x)', 1, lambda rng: (rng.normal(),), (), hints=(Hint('plus_one', 'times'),)"
+
+
+@pytest.mark.parametrize(
+    "slip, text",
+    [
+        ({"wrong": "lambda x: 1 / 0"}, "double, plus_one raised ZeroDivisionError: division by zero"),
+        ({"exercise": GOOD.replace(", (), ", ", (2,), ")}, r"double, the solution: the shape is \(\)"),
+        ({"solution": "def twice(x):\n    return 2 * x"}, "no solution of double: no cell with nbgrader.sol"),
+    ],
+)
+def test_a_slip_in_an_exercise_is_named(tmp_path, slip, text):
+    with pytest.raises(ValueError, match=text):
+        tables.write_samples(course_with(tmp_path, **{"exercise": GOOD, **slip}))
+
+
+def test_without_a_slip_the_table_is_written(tmp_path):
+    assert tables.write_samples(course_with(tmp_path, GOOD)) == ["nb01"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import concurrent.futures as futures
 import csv
 import json
@@ -16,7 +17,7 @@ import tracemalloc
 import psutil
 import pytest
 
-from coursekit.classroom import grade, notebook
+from coursekit.classroom import box, grade, judge, notebook
 from coursekit.classroom.box import bubblewrap
 from coursekit.classroom.course import Course
 from tests.classroom.small import COURSE, HERE, NAME, ROOT, grade_small, hand_in, points, records
@@ -60,8 +61,39 @@ def test_links_folders_and_pipes_are_not_followed_and_nobody_is_forgotten(tmp_pa
     assert set(table) == {"link", "folder", "pipe", "missing", "otherwise named", "'=1+1", "alias"}
     assert {row["points"] for row in table.values()} == {"0"}
     assert "link" in table["link"]["notes"] and "link" in table["alias"]["notes"]
-    assert "arm (1).ipynb" in table["otherwise named"]["notes"]
     assert "nothing handed in" in table["missing"]["notes"]
+    assert "under the name 01_arm.ipynb (found: arm (1).ipynb)" in table["otherwise named"]["notes"]
+
+
+def test_a_notebook_that_is_missing_or_doubled_is_refused(tmp_path):
+    """JupyterLab's "Duplicate" once made the copy's name the one that everybody had to hand in."""
+    (tmp_path / "exercises").mkdir()
+    shutil.copy(HERE / "course" / "exercises" / "nb01.py", tmp_path / "exercises")
+    with pytest.raises(ValueError, match=r"nb01 needs one notebook 01_\*.ipynb in .*; found: none"):
+        grade.grade_class(tmp_path, tmp_path / "out", course=Course(tmp_path, tmp_path), box=False)
+    for name in ("01_arm-Copy1.ipynb", "01_arm.ipynb"):
+        (tmp_path / name).touch()
+    with pytest.raises(ValueError, match=r"found: 01_arm-Copy1.ipynb and 01_arm.ipynb"):
+        Course(tmp_path, tmp_path).notebook("nb01")
+
+
+@needs_box
+def test_in_the_box_a_course_below_tmp_is_seen(tmp_path, monkeypatch):
+    """The box has a /tmp of its own, which must not hide a Python that lies in the real one."""
+    (tmp_path / "python").write_text("is here")
+    (tmp_path / "library").mkdir()
+    visible = box._visible()
+    monkeypatch.setattr(box, "_visible", lambda: [*visible, str(tmp_path / "python")])
+
+    async def read():
+        kernel = box.Box(tmp_path / "library", box.Limits(), bubblewrap())
+        try:
+            await kernel.start()
+            return await kernel.run("", 20, f"open({str(tmp_path / 'python')!r}).read()")
+        finally:
+            await kernel.stop()
+
+    assert judge.expression(asyncio.run(read())) == "'is here'"
 
 
 @needs_box

@@ -30,7 +30,10 @@ def short_course(tmp_path):
     document["cells"] = [setup, solution, check]
     (tmp_path / "notebooks").mkdir()
     notebook.write(tmp_path / "notebooks" / source.name, document)
-    return Course(tmp_path / "notebooks", whole.classroom)
+    for folder in ("exercises", "mistakes"):
+        (tmp_path / folder).mkdir()
+        shutil.copy(whole.classroom / folder / "nb01.py", tmp_path / folder)
+    return Course(tmp_path / "notebooks", tmp_path)
 
 
 def run(folder, *command):

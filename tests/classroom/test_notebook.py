@@ -37,12 +37,16 @@ def test_executing_twice_writes_the_same_bytes(tmp_path, capsys):
     assert "executed" in capsys.readouterr().out
 
 
-def test_a_cell_that_fails_stops_the_execution_and_nothing_is_written(tmp_path):
+def test_a_cell_that_fails_stops_the_execution_and_nothing_is_written(tmp_path, capsys):
     path = tmp_path / "a.ipynb"
     notebook.write(path, document("1 / 0"))
     before = path.read_bytes()
     with pytest.raises(Exception, match="ZeroDivisionError"):
         notebook.execute(path)
+    assert main(["execute", str(path)]) == 2
+    assert capsys.readouterr().err.strip() == (
+        f"coursekit execute: {path}, ZeroDivisionError: division by zero; nothing was stored"
+    )
     assert path.read_bytes() == before
 
 

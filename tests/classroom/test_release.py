@@ -31,10 +31,6 @@ def texts(out) -> dict[str, str]:
     return {str(p.relative_to(out)): p.read_text("utf-8") for p in out.rglob("*") if p.is_file()}
 
 
-def units(course) -> list[str]:
-    return [unit for unit in course.units if course.notebook(unit)]
-
-
 def test_it_holds_what_is_needed_and_no_more(released):
     _, out = released
     assert {p.name for p in out.iterdir()} == {
@@ -52,7 +48,7 @@ def test_it_holds_what_is_needed_and_no_more(released):
 def test_no_solution_and_no_marker_is_left(released):
     course, out = released
     found = {name: text for name, text in texts(out).items() if "kinematics" not in name}
-    for unit in units(course):
+    for unit in course.units:
         for cell in notebook.read(course.notebook(unit))["cells"]:
             if notebook.is_solution(cell):
                 inside = re.findall(r"### BEGIN SOLUTION\n(.*?)### END SOLUTION", cell["source"], re.S)
@@ -66,7 +62,7 @@ def test_no_solution_and_no_marker_is_left(released):
 
 def test_no_cell_for_instructors_and_no_output_is_left(released):
     course, out = released
-    for unit in units(course):
+    for unit in course.units:
         solved = notebook.read(course.notebook(unit))
         given = notebook.read(out / "notebooks" / course.notebook(unit).name)
         secret = [c["source"] for c in solved["cells"] if "instructor" in notebook.tags(c)]
@@ -83,7 +79,7 @@ def test_no_expected_number_can_be_read(released):
     """Full digits of right and of wrong answers to the public inputs, anywhere in the release."""
     course, out = released
     readable = set(re.findall(r"\d+\.\d{6,}(?:e[-+]?\d+)?", "\n".join(texts(out).values())))
-    for unit in units(course):
+    for unit in course.units:
         solved = tables.solutions(course, unit)
         for exercise in course.exercises(unit):
             functions = [getattr(solved, exercise.name), *course.wrong(unit)[exercise.name].values()]
@@ -110,7 +106,7 @@ def run_in(folder, code: str) -> str:
 @pytest.mark.parametrize("released", ["course"], indirect=True)
 def test_a_student_can_check_there(released):
     course, out = released
-    unit = units(course)[0]
+    unit = course.units[0]
     exercise = course.exercises(unit)[0]
     cells = notebook.read(course.notebook(unit))["cells"]
     solution = next(c["source"] for c in cells if notebook.is_solution(c))

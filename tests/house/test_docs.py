@@ -19,18 +19,7 @@ MODULES = sorted(
     if not found.name.endswith("__main__")
 )
 # What `coursekit` itself offers of the mathematics: the part that people meet first.
-FACE = [
-    "lie",
-    "rotations",
-    "dh",
-    "robots",
-    "jacobians",
-    "subproblems",
-    "ik",
-    "singularity",
-    "path",
-    "symbolic",
-]
+FACE = [name for name in coursekit.__all__ if f"coursekit.kinematics.{name}" in MODULES]
 
 
 def functions_and_classes(module):

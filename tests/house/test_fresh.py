@@ -19,6 +19,8 @@ from pathlib import Path
 
 import pytest
 
+from coursekit.classroom.box import bubblewrap
+
 ROOT = Path(__file__).resolve().parents[2]
 # how this machine reaches the package index; everything else of its environment is left behind
 NETWORK = re.compile(r"(?i)^(pip_.*|.*_proxy|ssl_cert_.*|requests_ca_bundle)$")
@@ -170,6 +172,43 @@ def test_second_command_on_top_of_the_first(machine):
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert re.search(r"\d+ passed", done.stdout)
+
+
+# Run where there is no network but the machine's own: JupyterLab's page and its scripts come all the same.
+ASK_THE_LAB = """
+import pathlib, re, subprocess, sys, time, urllib.request
+assert re.findall("^ *(.+?):", pathlib.Path("/proc/net/dev").read_text(), re.M) == ["lo"]
+lab = subprocess.Popen(["coursekit", "lab", "--no-browser", "--port=8888", "--IdentityProvider.token=t"])
+for _ in range(300):
+    try:
+        page = urllib.request.urlopen("http://127.0.0.1:8888/lab?token=t").read().decode()
+        break
+    except OSError:
+        time.sleep(0.2)
+for script in re.findall('src="(/[^"]*)"', page):
+    assert urllib.request.urlopen("http://127.0.0.1:8888" + script).status == 200
+lab.terminate()
+sys.exit("JupyterLab" not in page)
+"""
+
+
+@pytest.mark.parametrize(
+    "command", [["-m", "pytest", "-q", "-n0", "notebooks/01_dh_vs_poe.ipynb"], ["-c", ASK_THE_LAB]]
+)
+def test_installed_it_needs_no_network(machine, command):
+    if not bubblewrap():
+        (pytest.fail if os.environ.get("CI") == "true" else pytest.skip)("bubblewrap does not work here")
+    cut_off = ["bwrap", "--dev-bind", "/", "/", "--unshare-net", "--die-with-parent"]
+    programs = machine.course / ".venv" / "bin"
+    done = subprocess.run(
+        [*cut_off, str(programs / "python"), *command],
+        cwd=machine.course,
+        env={**machine.environment, "PATH": f"{programs}{os.pathsep}{os.environ['PATH']}"},
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_nothing_is_left_outside_the_course(machine):

@@ -171,6 +171,15 @@ def test_a_rod_stays_in_its_sleeve_over_the_whole_travel():
         assert moved.min() < (sleeve @ along).mean() < moved.max()
 
 
+def test_the_skeleton_reaches_a_slide_that_is_out():
+    robot = OTHERS["scara"]
+    lines = [part for part in arm.skeleton(robot)[3] if part.color == "bone"]
+    along, enter = robot.S[3:, 2], chain.chain(robot).joints[2].enter
+    stick = np.concatenate([part.mesh().vertices for part in lines]) @ along
+    for q in (robot.q_min[2], robot.q_max[2]):
+        assert (stick + q).min() <= enter @ along + 1e-9 <= (stick + q).max() + 2e-9
+
+
 @pytest.mark.parametrize("seed", range(20))
 def test_common_normal_is_the_shortest_way(seed):
     rng = np.random.default_rng(seed)

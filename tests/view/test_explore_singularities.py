@@ -4,7 +4,7 @@ import ipywidgets
 import numpy as np
 import pytest
 
-from coursekit import robots, singularity, view
+from coursekit import Robot, robots, singularity, view
 from coursekit.view.explorers import singularities
 from tests.kinematics.conftest import GOLDEN_ROBOTS, load
 
@@ -131,6 +131,16 @@ def test_one_robot_only_and_which_are_refused():
     panel.close()
     with pytest.raises(ValueError, match="Panda has no factors wrist, elbow, shoulder: the arm has 7 joints"):
         view.explore_singularities(robots.franka_panda())
+
+
+def test_an_arm_without_factors_is_not_offered(monkeypatch):
+    S = KR6.S.copy()
+    S[:3, 2] = [0, 0.6, 0.8]  # axes 2 and 3 are no longer parallel
+    other = Robot.from_screws(S, KR6.M, name="other")
+    monkeypatch.setattr(robots, "all", lambda: {"other": other, "kuka_kr6": KR6})
+    panel = view.explore_singularities()
+    assert panel.scene.text().startswith(KR6.name)
+    panel.close()
 
 
 def test_opening_it_again_leaks_nothing():

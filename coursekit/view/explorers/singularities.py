@@ -31,9 +31,8 @@ def explore_singularities(robot: Robot | None = None, height: int = 470) -> Pane
         An arm whose det J has the three factors (`singularity.factors`); ValueError for any other. Without it
         the explorer offers every such arm of the catalogue.
     """
-    arms = [arm for arm in robots.all().values() if arm.n == 6] if robot is None else [robot]
-    for arm in arms:
-        singularity.factors(arm, arm.home)  # refuses an arm without the three factors
+    arms = [arm for arm in robots.all().values() if _has_factors(arm)] if robot is None else [robot]
+    singularity.factors(arms[0], arms[0].home)  # refuses an arm without the three factors
     shown = [arms[0]]
     scene = Scene()
     _draw(scene, shown[0])
@@ -156,6 +155,14 @@ def words(robot: Robot, theta: ArrayLike) -> str:
     tool = f"tool at {text.millimetres(robot.fk(theta)[:3, 3])}"
     det = f"det J = {text.number(singularity.determinant(robot, theta), 6)} m^3 = {' x '.join(parts)}"
     return "\n".join([tool, det, f"smallest singular value {sigma}, rank {rank}: {verdict}", loss])
+
+
+def _has_factors(robot):
+    try:
+        singularity.factors(robot, robot.home)
+    except ValueError:
+        return False
+    return True
 
 
 def _ends(robot):
