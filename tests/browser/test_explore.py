@@ -178,9 +178,37 @@ def test_running_the_cell_ten_times_leaves_one_panel(explorer):
     assert explorer.page.locator(".ck-viewer").count() == 1
     assert explorer.page.evaluate("() => globalThis[Symbol.for('coursekit.page.1')].views.size") == 1
     assert explorer.page.evaluate("() => globalThis[Symbol.for('coursekit.page.1')].evaluated") == 1
+    assert alive(explorer, "globalThis[Symbol.for('coursekit.page.1')].MeshCat.Viewer.prototype") == 1
     explorer.page.locator("[role=slider]").nth(0).press("PageUp")
     settle(explorer)
     assert_tool_is_where_the_sliders_say(explorer)
+
+
+def alive(notebook, prototype):
+    """How many objects of this kind the page still holds after a garbage collection."""
+    browser = notebook.page.context.new_cdp_session(notebook.page)
+    browser.send("HeapProfiler.collectGarbage")
+    kind = browser.send("Runtime.evaluate", {"expression": prototype})["result"]["objectId"]
+    found = browser.send("Runtime.queryObjects", {"prototypeObjectId": kind})["objects"]["objectId"]
+    count = {"objectId": found, "functionDeclaration": "function () { return this.length; }"}
+    return browser.send("Runtime.callFunctionOn", {**count, "returnByValue": True})["result"]["value"]
+
+
+def test_after_a_restart_of_the_kernel_the_notebook_runs_again(notebook, lab):
+    notebook.open(lab.write("restarted.ipynb", IMPORT, SHOW))
+    notebook.run_all()
+    notebook.wait_view()
+    notebook.page.evaluate(
+        "() => window.jupyterapp.shell.currentWidget.sessionContext.session.kernel.restart()"
+    )
+    notebook.idle()
+    notebook.run_all()
+    notebook.wait_view()
+    notebook.page.locator("[role=slider]").nth(0).press("PageUp")
+    settle(notebook)
+    assert_tool_is_where_the_sliders_say(notebook)
+    assert notebook.page.locator(".ck-viewer").count() == 1
+    assert notebook.page.evaluate("() => globalThis[Symbol.for('coursekit.page.1')].views.size") == 1
 
 
 def test_one_robot_after_another(notebook, lab):

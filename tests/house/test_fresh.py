@@ -163,7 +163,7 @@ def test_first_command_opens_the_course(machine):
 def test_second_command_on_top_of_the_first(machine):
     """Repeats the set-up where it was already done, adds what the tests need, and runs some of them."""
     done = subprocess.run(
-        machine.command("-m pytest", "-q", "tests/house/test_import.py", "notebooks/01_dh_vs_poe.ipynb"),
+        machine.command("-m pytest", "-q", *SOME_TESTS),
         cwd=machine.course,
         env=machine.environment,
         capture_output=True,
@@ -192,9 +192,10 @@ sys.exit("JupyterLab" not in page)
 """
 
 
-@pytest.mark.parametrize(
-    "command", [["-m", "pytest", "-q", "-n0", "notebooks/01_dh_vs_poe.ipynb"], ["-c", ASK_THE_LAB]]
-)
+SOME_TESTS = ["tests/house/test_import.py", "notebooks/01_dh_vs_poe.ipynb"]
+
+
+@pytest.mark.parametrize("command", [["-m", "pytest", "-q", "-n0", *SOME_TESTS], ["-c", ASK_THE_LAB]])
 def test_installed_it_needs_no_network(machine, command):
     if not bubblewrap():
         (pytest.fail if os.environ.get("CI") == "true" else pytest.skip)("bubblewrap does not work here")

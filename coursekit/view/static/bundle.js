@@ -76,11 +76,15 @@ async function receiveBundle(data) {
   shared.reject(new Error("this page's security policy stops the 3D viewer (an administrator can add blob: to script-src)"));
 }
 
-// A reloaded page or a second browser was not there when the bundle was pushed: ask, once per page at a time.
+// A reloaded page or a second browser was not there when the bundle was pushed: ask, once per page at a time. And ask
+// again, more and more rarely: an answer may get lost (a server drops messages where too many come at once).
 function askForBundle(model) {
   const shared = page();
   const ask = () => {
-    if (shared.MeshCat || shared.busy || (shared.askedAt && performance.now() - shared.askedAt < 4000)) return;
+    if (shared.MeshCat || shared.asked > 20) return;
+    const patience = 4000 * 1.5 ** shared.asked; // milliseconds
+    setTimeout(ask, patience);
+    if (shared.busy || (shared.askedAt && performance.now() - shared.askedAt < 0.9 * patience)) return;
     shared.askedAt = performance.now();
     shared.asked += 1;
     model.send({ type: "need_bundle" });
