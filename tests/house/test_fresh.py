@@ -23,7 +23,7 @@ from coursekit.classroom.box import bubblewrap
 
 ROOT = Path(__file__).resolve().parents[2]
 # how this machine reaches the package index; everything else of its environment is left behind
-NETWORK = re.compile(r"(?i)^(pip_(?!no_compile).*|.*_proxy|ssl_cert_.*|requests_ca_bundle)$")
+NETWORK = re.compile(r"(?i)^(pip_.*|.*_proxy|ssl_cert_.*|requests_ca_bundle)$")
 
 pytestmark = [
     pytest.mark.fresh,

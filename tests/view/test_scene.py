@@ -339,3 +339,10 @@ def test_the_text_is_one_line_and_names_units():
         "KUKA KR6 R900 sixx: joints (0.0, -90.0, 90.0, 0.0, 0.0, 0.0) deg; tool at (525.0, 0.0, 890.0) mm"
     )
     assert Scene().text() == "an empty scene"
+
+
+def test_the_text_says_each_unit_where_joints_turn_and_slide():
+    arm = Robot.from_axes([[0, 0, 1]] * 2, [[0, 0, 0], [0.5, 0, 0]], np.eye(4), "RP", name="arm")
+    scene = Scene()
+    scene.robot(arm, [np.pi / 4, 0.1])
+    assert scene.text().startswith("arm: joints (45.0 deg, 100.0 mm); tool at ")

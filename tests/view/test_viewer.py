@@ -1,5 +1,6 @@
 """The viewer without a browser: what it puts into its state and into its messages."""
 
+import gzip
 import subprocess
 import sys
 
@@ -160,3 +161,23 @@ def test_neither_meshcat_nor_its_warnings_are_imported():
         [sys.executable, "-W", "error", "-c", code], capture_output=True, text=True, check=True
     )
     assert done.stdout.strip() == "False"
+
+
+def test_a_pose_in_one_message(viewer, scene):
+    moved = robots.kuka_kr6().displacements(np.full(6, 0.2))
+    viewer.play(np.array([scene.pose(), moved]))
+    viewer.set_pose(moved)
+    np.testing.assert_array_equal(np.frombuffer(viewer.pose).reshape(6, 4, 4).transpose(0, 2, 1), moved)
+    assert viewer.frame == -1
+    with pytest.raises(ValueError, match=r"transforms must have shape \(6, 4, 4\), got \(5, 4, 4\)"):
+        viewer.set_pose(moved[:5])
+
+
+def test_the_page_may_ask_for_the_script_and_for_a_picture(viewer):
+    viewer.sent.clear()
+    viewer._answer(viewer, {"type": "need_bundle"}, [])
+    viewer._answer(viewer, {"type": "need_png", "width": 320, "height": 200}, [])
+    (first, (script,)), (second, (picture,)) = viewer.sent
+    assert (first["type"], second["type"]) == ("bundle", "png")
+    assert b"MeshCat" in gzip.decompress(script)
+    assert picture.startswith(b"\x89PNG")
