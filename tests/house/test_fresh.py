@@ -188,6 +188,7 @@ for _ in range(300):
 for script in re.findall('src="(/[^"]*)"', page):
     assert urllib.request.urlopen("http://127.0.0.1:8888" + script).status == 200
 lab.terminate()
+lab.wait()
 sys.exit("JupyterLab" not in page)
 """
 

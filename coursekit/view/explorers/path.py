@@ -118,9 +118,10 @@ class _Run:
         self.limit = path.speed_limit(self.q, self.points, bounds)
         self.faulty = path.speed_limit(_wrapped(self.q), self.points, bounds)
         before, self.motion = self.motion, (n, self.branch, *bounds)
-        if self.motion != before:
+        another = self.motion != before
+        if another:
             self.place = 0
-        return self.motion != before
+        return another
 
     # -- the motion in the page
 
