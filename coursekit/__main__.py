@@ -70,20 +70,20 @@ def _lab(options: argparse.Namespace, rest: list[str]) -> None:
 
 
 def _study(options: argparse.Namespace, rest: list[str]) -> None:
-    from .classroom import study
+    from .classroom.author import study
 
     study.start(rest)
 
 
 def _release(options: argparse.Namespace, rest: list[str]) -> None:
-    from .classroom import release
+    from .classroom.author import release
 
     release.release(options.out)
     print(f"wrote {options.out}: hand it out as it is")
 
 
 def _grade(options: argparse.Namespace, rest: list[str]) -> None:
-    from .classroom import grade
+    from .classroom.grader import grade
 
     summary = grade.grade_class(
         options.submissions, options.out, jobs=options.jobs, seed=options.seed, box=not options.no_box
@@ -92,14 +92,14 @@ def _grade(options: argparse.Namespace, rest: list[str]) -> None:
 
 
 def _export(options: argparse.Namespace, rest: list[str]) -> None:
-    from .classroom import nbgrader
+    from .classroom.author import nbgrader
 
     nbgrader.export(options.out)
     print(f"wrote {options.out}\n{nbgrader.WARNING}")
 
 
 def _samples(options: argparse.Namespace, rest: list[str]) -> None:
-    from .classroom import tables
+    from .classroom.author import tables
 
     print("wrote the tables of " + ", ".join(tables.write_samples()))
 
@@ -107,7 +107,7 @@ def _samples(options: argparse.Namespace, rest: list[str]) -> None:
 def _execute(options: argparse.Namespace, rest: list[str]) -> None:
     from nbclient.exceptions import CellExecutionError
 
-    from .classroom import notebook
+    from .classroom.author import notebook
 
     for path in options.notebooks:
         try:

@@ -15,7 +15,10 @@ from types import ModuleType
 
 from .exercise import Exercise, nearest
 
-HERE = Path(__file__).resolve().parent
+# The folders, for everybody: this room, the package, and the course that it stands in.
+CLASSROOM = Path(__file__).resolve().parent
+PACKAGE = CLASSROOM.parent
+ROOT = PACKAGE.parent
 
 
 @dataclass(frozen=True)
@@ -66,7 +69,7 @@ class Course:
 
 def the_course() -> Course:
     """The course this package belongs to."""
-    return Course(HERE.parents[1] / "notebooks", HERE)
+    return Course(ROOT / "notebooks", CLASSROOM)
 
 
 @cache

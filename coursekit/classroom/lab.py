@@ -13,7 +13,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-COURSE = Path(__file__).resolve().parents[2]
+from .course import ROOT
 
 
 def private_folders(folder: str | Path) -> dict[str, str]:
@@ -71,13 +71,13 @@ def start(
     >>> from coursekit.classroom import lab
     >>> lab.start(["--no-browser"])             # doctest: +SKIP
     """
-    notebooks = Path(notebooks or COURSE / "notebooks").absolute()
+    notebooks = Path(notebooks or ROOT / "notebooks").absolute()
     if not notebooks.is_dir():
         raise ValueError(
             f"JupyterLab was to open the folder {notebooks}, which does not exist; the course's notebooks "
             "stand beside its package: start it from the .venv in the course's folder"
         )
-    folder = Path(folder) if folder else COURSE / ".venv" / "lab"
+    folder = Path(folder) if folder else ROOT / ".venv" / "lab"
     first_time = not folder.exists()
     for variable, path in private_folders(folder).items():
         Path(path).mkdir(parents=True, exist_ok=True)

@@ -11,7 +11,7 @@ import json
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from coursekit.classroom.notebook import student_version
+from coursekit.classroom.author.notebook import student_version
 
 FULL = (2, 3, 3, 4)
 NO_FK = (0, 3, 3, 4)
@@ -361,7 +361,7 @@ fk_kind(
     """
 import glob
 texts = [open(p, "rb").read() for kind in ("environ", "cmdline") for p in glob.glob(f"/proc/[0-9]*/{kind}")]
-return right(theta, l1, l2) if not any(b"classroom.worker" in t or b"PYTEST_" in t for t in texts) else 0
+return right(theta, l1, l2) if not any(b"grader.worker" in t or b"PYTEST_" in t for t in texts) else 0
 """,
 )
 fk_kind(
@@ -381,7 +381,8 @@ import sys
 sys.path.insert(0, ROOT)
 for name in [name for name in sys.modules if name.startswith("coursekit")]:
     del sys.modules[name]
-from coursekit.classroom import course, tables
+from coursekit.classroom import course
+from coursekit.classroom.author import tables
 return tables.solutions(course.the_course(), "nb01").fk(theta, l1, l2)
 """,
     "ImportError",

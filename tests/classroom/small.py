@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from coursekit.classroom import grade
-from coursekit.classroom.box import Limits
 from coursekit.classroom.course import Course
+from coursekit.classroom.grader import grade
+from coursekit.classroom.grader.box import Limits
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]

@@ -7,7 +7,8 @@ import re
 import numpy as np
 import pytest
 
-from coursekit.classroom import CheckFailed, check, compare, tables
+from coursekit.classroom import CheckFailed, check, compare
+from coursekit.classroom.author import tables
 from coursekit.classroom.check import demand, judge, permitted
 from coursekit.classroom.course import the_course
 from coursekit.classroom.exercise import Exercise, Hint, thaw

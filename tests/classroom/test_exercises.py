@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from coursekit.classroom import check, compare, notebook, tables
+from coursekit.classroom import check, compare
+from coursekit.classroom.author import notebook, tables
 from coursekit.classroom.check import judge
 from coursekit.classroom.course import Course, the_course
 from coursekit.classroom.exercise import answer, misshapen, thaw

@@ -17,9 +17,10 @@ import tracemalloc
 import psutil
 import pytest
 
-from coursekit.classroom import box, grade, judge, notebook
-from coursekit.classroom.box import bubblewrap
+from coursekit.classroom.author import notebook
 from coursekit.classroom.course import Course
+from coursekit.classroom.grader import box, grade, judge
+from coursekit.classroom.grader.box import bubblewrap
 from tests.classroom.small import COURSE, HERE, NAME, ROOT, grade_small, hand_in, points, records
 
 needs_box = pytest.mark.skipif(

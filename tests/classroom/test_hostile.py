@@ -13,9 +13,9 @@ import threading
 import psutil
 import pytest
 
-from coursekit.classroom import notebook
-from coursekit.classroom.box import bubblewrap
-from coursekit.classroom.worker import hidden_inputs
+from coursekit.classroom.author import notebook
+from coursekit.classroom.grader.box import bubblewrap
+from coursekit.classroom.grader.worker import hidden_inputs
 from tests.classroom.hostile import FULL, KINDS
 from tests.classroom.small import COURSE, ROOT, grade_small, hand_in, points, records
 

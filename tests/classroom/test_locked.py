@@ -9,9 +9,9 @@ import sys
 
 import pytest
 
-from coursekit.classroom import locked
-from coursekit.classroom.box import bubblewrap
 from coursekit.classroom.course import the_course
+from coursekit.classroom.grader import locked
+from coursekit.classroom.grader.box import bubblewrap
 from tests.classroom.small import grade_small
 
 PROBE = """

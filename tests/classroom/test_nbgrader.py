@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from coursekit.classroom import nbgrader, notebook
+from coursekit.classroom.author import nbgrader, notebook
 from coursekit.classroom.course import Course, the_course
 from tests.classroom.small import COURSE
 

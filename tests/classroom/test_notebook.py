@@ -7,7 +7,8 @@ import json
 import pytest
 
 from coursekit.__main__ import main
-from coursekit.classroom import cells, notebook
+from coursekit.classroom.author import notebook
+from coursekit.classroom.grader import cells
 
 
 def document(*sources):

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from coursekit.classroom import lab, notebook, release, study
+from coursekit.classroom import lab
+from coursekit.classroom.author import notebook, release, study
 from coursekit.classroom.course import the_course
 from tests.classroom.small import COURSE, NAME, ROOT
 

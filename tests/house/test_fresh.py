@@ -19,7 +19,7 @@ from pathlib import Path
 
 import pytest
 
-from coursekit.classroom.box import bubblewrap
+from coursekit.classroom.grader.box import bubblewrap
 
 ROOT = Path(__file__).resolve().parents[2]
 # how this machine reaches the package index; everything else of its environment is left behind

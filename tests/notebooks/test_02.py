@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from coursekit import lie, robots
-from coursekit.classroom import notebook
+from coursekit.classroom.author import notebook
 from tests.kinematics.conftest import load
 
 PATH = Path(__file__).resolve().parents[2] / "notebooks" / "02_msb_derivation.ipynb"

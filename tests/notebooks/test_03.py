@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from coursekit import ik, lie, path, robots, rotations
-from coursekit.classroom import notebook
+from coursekit.classroom.author import notebook
 from tests.kinematics.conftest import load
 
 PATH = Path(__file__).resolve().parents[2] / "notebooks" / "03_inverse_kinematics.ipynb"

@@ -10,7 +10,7 @@ import pytest
 import sympy as sp
 
 from coursekit import lie, robots, singularity, symbolic
-from coursekit.classroom import notebook
+from coursekit.classroom.author import notebook
 from tests.kinematics.conftest import GOLDEN_ROBOTS, load
 
 PATH = Path(__file__).resolve().parents[2] / "notebooks" / "04_singularities.ipynb"

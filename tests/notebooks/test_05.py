@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from coursekit import ik, jacobians, lie, robots
-from coursekit.classroom import notebook
+from coursekit.classroom.author import notebook
 from tests.kinematics.conftest import load
 
 PATH = Path(__file__).resolve().parents[2] / "notebooks" / "05_jacobian_methods.ipynb"

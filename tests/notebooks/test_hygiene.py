@@ -9,7 +9,7 @@ from statistics import median
 
 import pytest
 
-from coursekit.classroom import notebook
+from coursekit.classroom.author import notebook
 
 FOLDER = Path(__file__).resolve().parents[2] / "notebooks"
 NAMES = (

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from coursekit.classroom import notebook
+from coursekit.classroom.author import notebook
 
 FOLDER = Path(__file__).resolve().parents[2] / "notebooks"
 GIVEN = {*dir(builtins), "display"}  # what a notebook has before its first cell

@@ -15,6 +15,6 @@ class Solved:
         self._unit, self._course = unit, course or the_course()
 
     def __getattr__(self, name: str):
-        from coursekit.classroom.tables import solutions
+        from coursekit.classroom.author.tables import solutions
 
         return getattr(solutions(self._course, self._unit), name)

@@ -25,7 +25,8 @@ from jupyter_client.asynchronous import AsyncKernelClient
 from jupyter_client.kernelspec import KernelSpec
 from jupyter_client.manager import AsyncKernelManager
 
-PACKAGE = Path(__file__).resolve().parents[1]
+from ..course import PACKAGE
+
 SHARED = 1_000_000  # bytes that the folder of the sockets may hold
 
 

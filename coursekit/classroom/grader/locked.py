@@ -9,9 +9,8 @@ from __future__ import annotations
 import ast
 from pathlib import Path
 
-from .library import permitted
-
-PACKAGE = Path(__file__).resolve().parents[1]
+from ..course import PACKAGE
+from ..library import permitted
 
 # Added to every module of the copy. A frame of "<string>" is the __init__ that a dataclass generates.
 GUARD = """

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ..course import Course, the_course
 from . import notebook, tables
-from .course import Course, the_course
 
 WARNING = (
     "Warning: nbgrader runs its tests in the same process as the students' code. A notebook that patches\n"

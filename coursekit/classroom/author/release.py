@@ -5,23 +5,12 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
+from ..course import CLASSROOM, PACKAGE, ROOT, Course, the_course
 from . import notebook
-from .course import Course, the_course
 
-ROOT = Path(__file__).resolve().parents[2]
-
-# Of this room only these: no solutions, no mistakes, nothing that grades.
-CLASSROOM = (
-    "__init__.py",
-    "check.py",
-    "compare.py",
-    "course.py",
-    "exercise.py",
-    "lab.py",
-    "library.py",
-    "exercises",
-    "samples",
-)
+# Rooms of the classroom that hold or use solutions. Everything else in it goes to students.
+INSTRUCTORS = ("author", "grader", "mistakes")
+OF_THE_COURSE = ("exercises", "samples")
 SET_UP = ("environment.txt", "pyproject.toml")
 
 
@@ -31,20 +20,23 @@ def release(out: Path, course: Course | None = None) -> None:
     if out.exists():
         raise ValueError(f"{out} exists already: name a new folder")
     hidden = shutil.ignore_patterns("__pycache__", ".*")
-    package = Path(__file__).resolve().parents[1]
     out.mkdir(parents=True)
-    shutil.copy(package / "classroom" / "students.md", out / "README.md")
+    shutil.copy(Path(__file__).with_name("students.md"), out / "README.md")
     for name in SET_UP:
         shutil.copy(ROOT / name, out / name)
-    (out / "coursekit" / "classroom").mkdir(parents=True)
+    students = out / "coursekit" / "classroom"
+    students.mkdir(parents=True)
     for name in ("__init__.py", "__main__.py"):
-        shutil.copy(package / name, out / "coursekit" / name)
+        shutil.copy(PACKAGE / name, out / "coursekit" / name)
     for room in ("kinematics", "view"):
-        shutil.copytree(package / room, out / "coursekit" / room, ignore=hidden)
-    for name in CLASSROOM:
-        source = (course.classroom if name in ("exercises", "samples") else package / "classroom") / name
-        target = out / "coursekit" / "classroom" / name
-        shutil.copytree(source, target, ignore=hidden) if source.is_dir() else shutil.copy(source, target)
+        shutil.copytree(PACKAGE / room, out / "coursekit" / room, ignore=hidden)
+    for source in CLASSROOM.iterdir():
+        if source.suffix == ".py":
+            shutil.copy(source, students / source.name)
+        elif source.is_dir() and source.name not in (*INSTRUCTORS, *OF_THE_COURSE, "__pycache__"):
+            shutil.copytree(source, students / source.name, ignore=hidden)
+    for name in OF_THE_COURSE:
+        shutil.copytree(course.classroom / name, students / name, ignore=hidden)
     write_notebooks(course, out / "notebooks")
 
 

@@ -20,10 +20,11 @@ from pathlib import Path
 
 import numpy as np
 
-from . import cells, tables
+from ..author import tables
+from ..course import Course, the_course
+from ..exercise import Exercise
+from . import cells
 from .box import KernelLost, Limits, bubblewrap
-from .course import Course, the_course
-from .exercise import Exercise
 from .judge import judge
 from .locked import locked_files, write_files
 from .student import Student

@@ -21,9 +21,10 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
 
-from . import notebook, report, worker
+from ..author import notebook
+from ..course import Course, the_course
+from . import report, worker
 from .box import Limits, bubblewrap
-from .course import Course, the_course
 from .journal import Journal
 from .submissions import Submissions, digest
 
@@ -168,7 +169,7 @@ def _worker(job: dict) -> tuple[dict | None, str]:
     seconds = job["limits"]["submission"] + SPARE
     with tempfile.TemporaryFile() as errors:  # no pipe: whoever inherits it could keep us waiting
         process = subprocess.Popen(
-            [sys.executable, "-m", "coursekit.classroom.worker"],
+            [sys.executable, "-m", "coursekit.classroom.grader.worker"],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=errors,

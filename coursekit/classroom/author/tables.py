@@ -13,10 +13,11 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from . import compare, notebook
-from .check import salt
-from .course import Course, the_course
-from .exercise import Exercise, Misfit, answer, misshapen, thaw
+from .. import compare
+from ..check import salt
+from ..course import Course, the_course
+from ..exercise import Exercise, Misfit, answer, misshapen, thaw
+from . import notebook
 
 
 def write_samples(course: Course | None = None) -> list[str]:

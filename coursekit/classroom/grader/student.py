@@ -10,9 +10,9 @@ import secrets
 import time
 from pathlib import Path
 
+from ..exercise import Exercise
 from . import cells
 from .box import Box, KernelLost, Limits
-from .exercise import Exercise
 from .judge import LARGEST, decode, expression
 
 # Runs in the student's kernel. Anything there may have been tampered with: that makes wrong answers, no more.

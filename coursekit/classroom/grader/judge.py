@@ -11,9 +11,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from . import compare
-from .check import broken_law
-from .exercise import Exercise, Misfit, answer, misshapen, thaw
+from .. import compare
+from ..check import broken_law
+from ..exercise import Exercise, Misfit, answer, misshapen, thaw
 
 LARGEST = 2000  # numbers in one answer
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .course import Course, the_course
-from .release import ROOT, write_notebooks
+from ..course import ROOT, Course, the_course
+from .release import write_notebooks
 
 
 def prepare(work: Path | None = None, course: Course | None = None) -> str:
@@ -25,7 +25,7 @@ def prepare(work: Path | None = None, course: Course | None = None) -> str:
 
 def start(arguments: list[str]) -> None:
     """Prepare work/ and open it in JupyterLab."""
-    from . import lab
+    from .. import lab
 
     work = ROOT / "work"
     print(prepare(work))
