@@ -1,5 +1,5 @@
 """The classroom: exercises, feedback, releases, grades."""
 
-from .check import CheckFailed, check
+from .check import CheckFailed, Diagnosis, check, diagnose, example
 
-__all__ = ["CheckFailed", "check"]
+__all__ = ["CheckFailed", "Diagnosis", "check", "diagnose", "example"]

@@ -59,6 +59,10 @@ class Course:
     def samples_path(self, unit: str) -> Path:
         return self.classroom / "samples" / f"{unit}.json"
 
+    def has(self, name: str) -> bool:
+        """Is there an exercise of this name?"""
+        return any(name == e.name for unit in self.units for e in self.exercises(unit))
+
     def find(self, name: str) -> tuple[str, Exercise]:
         """(unit, exercise) of a name; ValueError if there is none."""
         known = {e.name: (unit, e) for unit in self.units for e in self.exercises(unit)}

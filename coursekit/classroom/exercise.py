@@ -1,7 +1,7 @@
 """The public half of an exercise: how its inputs are drawn and what a right answer is made of.
 
-An `Exercise` ships to students. It holds no solution and no expected number: the solution stands in the
-solved notebook alone, functions that commit its typical mistakes in `mistakes/`, which students do not get.
+An `Exercise` ships to students. It holds no solution: that stands in the solved notebook alone, functions
+that commit its typical mistakes in `mistakes/`, which students do not get.
 """
 
 from __future__ import annotations
@@ -12,8 +12,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 KINDS = ("close", "angle", "rotation", "up_to_sign", "columns_up_to_sign", "set", "any_solution")
+USUAL = "for ordinary numbers"
 
 
 @dataclass(frozen=True)
@@ -22,6 +24,49 @@ class Hint:
 
     key: str
     text: str
+
+
+@dataclass(frozen=True)
+class Edge:
+    """A case that every set of examples contains, public or hidden.
+
+    text  : completes "right ..." and "wrong ...": "for a slide", "where R[0, 0] is negative".
+    draw  : draw(rng) -> tuple of arguments.
+    count : how many of them a set contains.
+    tol   : in place of the exercise's, where right answers of several kinds differ by more; a number or an
+            array that broadcasts to the shape of the answer.
+    """
+
+    text: str
+    draw: Callable[[np.random.Generator], tuple]
+    count: int = 1
+    tol: ArrayLike | None = None
+
+
+@dataclass(frozen=True)
+class Block:
+    """A part of the answer in the exercise's words: "the rotation", entries [..., :3, :3] of result 0.
+
+    text : reads well in "... is right, ... is not" (or "are", with plural=True).
+    index: as numpy takes it; for several results, that of result `part`.
+    """
+
+    text: str
+    index: Any = ...
+    part: int = 0
+    plural: bool = False
+
+
+# The blocks of answers that look alike everywhere.
+POSE = (
+    Block("the rotation", np.s_[..., :3, :3]),
+    Block("the position", np.s_[..., :3, 3]),
+    Block("the last row", np.s_[..., 3, :]),
+)
+JACOBIAN = (
+    Block("the upper rows (omega)", np.s_[:3], plural=True),
+    Block("the lower rows (v)", np.s_[3:], plural=True),
+)
 
 
 @dataclass(frozen=True)
@@ -41,8 +86,13 @@ class Exercise:
                 "columns_up_to_sign"  a matrix, each column of free sign
                 "set"                 rows in any order, each once, angles modulo 2 pi
                 "any_solution"        right if all laws hold (they must then not call the function)
-    tol       : absolute; an answer nearer than tol is right, one farther than 2 tol is wrong.
+    tol       : absolute: an entry farther than this from the right one is wrong.
+    edges     : cases that every set of examples contains, beside the drawn ones, which `usual` names.
+    blocks    : parts of the answer in the exercise's words, for what is right already.
     laws      : (text, law(function, args, value) -> bool): what must hold whatever the inputs.
+    residual  : residual(args, value, right) -> how far a wrong answer misses, in the course's own terms: "put
+                back into the arm, your angles miss the wrist centre by 83 mm"; "" if it cannot be said. value
+                and right are arrays, or tuples of them.
     """
 
     signature: str
@@ -54,9 +104,13 @@ class Exercise:
     compare: str | tuple[str, ...] = "close"
     tol: float = 1e-6
     unit: str = ""
-    samples: int = 4  # public inputs: what the student's check uses
-    n: int = 20  # hidden inputs: what grading uses
+    samples: int = 4  # public inputs beside the edges: what the student's check uses
+    n: int = 20  # hidden inputs, edges included: what grading uses
     timeout: float = 10.0  # seconds for all n
+    edges: tuple[Edge, ...] = ()
+    usual: str = USUAL
+    blocks: tuple[Block, ...] = ()
+    residual: Callable[[list, Any, Any], str] | None = None
     name: str = field(init=False)
 
     def __post_init__(self):
@@ -82,9 +136,30 @@ class Exercise:
     def kinds(self) -> tuple[str, ...]:
         return (self.compare,) * len(self.shapes) if isinstance(self.compare, str) else self.compare
 
-    def arguments(self, rng: np.random.Generator) -> list:
-        """Arguments for one call, as plain JSON data."""
-        return [plain(x) for x in self.draw(rng)]
+    @property
+    def arguments(self) -> list[str]:
+        """The names of the arguments, from the signature."""
+        inside = self.signature.partition("(")[2].rpartition(")")[0]
+        return [name.strip() for name in inside.split(",") if name.strip()]
+
+    def value(self, parts: list[np.ndarray]) -> Any:
+        """Parts of an answer as the function returns them: one array, or a tuple."""
+        return tuple(parts) if self.several else parts[0]
+
+    def draws(self, rng: np.random.Generator, count: int) -> list[tuple[str, list, ArrayLike]]:
+        """(case, arguments as plain JSON data, tolerance): every edge, then drawn ones up to `count`."""
+        rows = [
+            (edge.text, edge.draw(rng), self.tol if edge.tol is None else edge.tol)
+            for edge in self.edges
+            for _ in range(edge.count)
+        ]
+        rows += [(self.usual, self.draw(rng), self.tol) for _ in range(count - len(rows))]
+        return [(case, [plain(x) for x in arguments], plain(tol)) for case, arguments, tol in rows]
+
+    @property
+    def least(self) -> int:
+        """How many examples the edges are."""
+        return sum(edge.count for edge in self.edges)
 
 
 def plain(value: Any) -> Any:
@@ -106,11 +181,11 @@ def _thaw(value):
         from coursekit import robots
 
         ((what, name),) = value.items()
-        robot = robots.all()[name]
+        robot = getattr(robots, name)()
         return robot if what == "robot" else (lambda theta: robot.fk(theta))
     if isinstance(value, list):
         array = np.array(value)
-        return array.astype(float) if array.dtype.kind in "if" else value
+        return array if array.dtype.kind in "if" else value
     return value
 
 
@@ -121,7 +196,7 @@ class Misfit(Exception):
 def answer(exercise: Exercise, value: object) -> list[np.ndarray]:
     """The returned value as float arrays, one for each returned thing; Misfit if it is none."""
     if value is None:
-        raise Misfit("the function returns None: is there a `return` at its end?")
+        raise Misfit("it returns None: is there a `return` at its end?")
     if not exercise.several:
         return [_numbers(value)]
     if not isinstance(value, list | tuple) or len(value) != len(exercise.shapes):

@@ -159,7 +159,12 @@ fk_kind(
 fk_kind("a_list_for_an_array", FULL, "return list(right(theta, l1, l2))")
 fk_kind("slow_but_right", FULL, "import time\ntime.sleep(0.1)\nreturn right(theta, l1, l2)")
 fk_kind("prints_ten_megabytes", FULL, "print('x' * 1_300_000)\nreturn right(theta, l1, l2)")
-fk_kind("arguments_changed_in_place", FULL, "value = right(theta, l1, l2)\ntheta[:] = 0\nreturn value")
+fk_kind(
+    "arguments_changed_in_place",
+    NO_FK,
+    "value = right(theta, l1, l2)\ntheta[:] = 0\nreturn value",
+    feedback="changes its argument `theta`",  # as the student's own check says
+)
 fk_kind("letters_of_all_the_world", FULL, "return right(theta, l1, l2)", before="θ̂ = 'naïve 机器人 🤖'")
 fk_kind("magics_in_the_cell", FULL, "return right(theta, l1, l2)", before="%precision 3\n!echo hello")
 cell_kind("a_question_mark_and_a_shell", "np.cos?\n!ls /")

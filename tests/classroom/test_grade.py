@@ -19,7 +19,7 @@ import pytest
 
 from coursekit.classroom.author import notebook
 from coursekit.classroom.course import Course
-from coursekit.classroom.grader import box, grade, judge
+from coursekit.classroom.grader import box, grade, reply
 from coursekit.classroom.grader.box import bubblewrap
 from tests.classroom.small import COURSE, HERE, NAME, ROOT, grade_small, hand_in, points, records
 
@@ -94,7 +94,7 @@ def test_in_the_box_a_course_below_tmp_is_seen(tmp_path, monkeypatch):
         finally:
             await kernel.stop()
 
-    assert judge.expression(asyncio.run(read())) == "'is here'"
+    assert reply.expression(asyncio.run(read())) == "'is here'"
 
 
 @needs_box
@@ -106,7 +106,7 @@ def test_the_same_seed_gives_the_same_grades_and_feedback(tmp_path, solved):
         grade_small(tmp_path / "in", tmp_path / run, seed=5)
         tables.append((tmp_path / run / "grades.csv").read_text())
     assert tables[0] == tables[1]
-    assert "wrong on 8 of 8" in tables[0]
+    assert "wrong: entry [0]; the rest is right" in tables[0]
     with pytest.raises(ValueError, match="another run"):
         grade_small(tmp_path / "in", tmp_path / "one", seed=6)
 

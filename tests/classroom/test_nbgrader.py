@@ -82,7 +82,7 @@ def test_the_export_warns_and_never_overwrites(tmp_path):
 def test_hidden_tests_differ_from_the_public_examples(tmp_path):
     nbgrader.export(tmp_path / "out", COURSE)
     exported = notebook.read(tmp_path / "out" / "source" / "01_arm" / "01_arm.ipynb")
-    public = COURSE.samples("nb01")["fk"][0]["args"]
+    public = COURSE.samples("nb01")["fk"]["examples"][0]["args"]
     cell = next(c for c in exported["cells"] if c["id"] == "check-fk")
     assert "BEGIN HIDDEN TESTS" in cell["source"]
     assert str(public[1]) not in cell["source"]

@@ -8,12 +8,10 @@ import re
 import subprocess
 import sys
 
-import numpy as np
 import pytest
 
-from coursekit.classroom.author import notebook, release, tables
+from coursekit.classroom.author import notebook, release
 from coursekit.classroom.course import CLASSROOM, the_course
-from coursekit.classroom.exercise import answer, thaw
 from tests.classroom.small import COURSE
 
 COURSES = {"small": COURSE, "course": the_course()}
@@ -75,24 +73,6 @@ def test_no_cell_for_instructors_and_no_output_is_left(released):
         assert all(c["outputs"] == [] and c["execution_count"] is None for c in code)
         for exercise in course.exercises(unit):
             assert any(exercise.name in s and "raise NotImplementedError" in s for s in sources)
-
-
-def test_no_expected_number_can_be_read(released):
-    """Full digits of right and of wrong answers to the public inputs, anywhere in the release."""
-    course, out = released
-    readable = set(re.findall(r"\d+\.\d{6,}(?:e[-+]?\d+)?", "\n".join(texts(out).values())))
-    for unit in course.units:
-        solved = tables.solutions(course, unit)
-        for exercise in course.exercises(unit):
-            functions = [getattr(solved, exercise.name), *course.wrong(unit)[exercise.name].values()]
-            rows = course.samples(unit)[exercise.name]
-            given = str([row["args"] for row in rows])  # an answer may repeat a number it was given
-            answers = []
-            with np.errstate(all="ignore"):
-                for row in rows:
-                    answers += [answer(exercise, function(*thaw(row["args"]))) for function in functions]
-            numbers = {repr(abs(float(x))) for parts in answers for part in parts for x in part.ravel()}
-            assert not {x for x in numbers & readable if len(x) > 12 and x not in given}
 
 
 def run_in(folder, code: str) -> str:

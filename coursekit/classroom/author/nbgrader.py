@@ -1,7 +1,7 @@
 """`coursekit export nbgrader OUT`: the course for an instructor who grades with nbgrader.
 
 The notebooks carry nbgrader's metadata already. What is added are hidden tests: other inputs than the public
-ones, with hashes of the right answers.
+ones, with the right answers as numbers.
 """
 
 from __future__ import annotations
@@ -29,9 +29,11 @@ c.ExecutePreprocessor.timeout = 60
 
 HIDDEN = """
 ### BEGIN HIDDEN TESTS
+import json
+
 from coursekit.classroom.check import demand
 
-demand({name!r}, {name}, {table!r})
+demand({name!r}, {name}, json.loads({table!r}))
 ### END HIDDEN TESTS"""
 
 
@@ -60,7 +62,8 @@ def _with_hidden_tests(course: Course, unit: str, seed: int) -> dict:
             cell["outputs"], cell["execution_count"] = [], None
         if notebook.is_check(cell):
             name = cell["metadata"]["nbgrader"]["grade_id"].removeprefix("check-")
+            exercise = exercises[name]
             rng = np.random.default_rng([seed, len(name), *name.encode()])
-            rows = tables.rows(course, unit, exercises[name], exercises[name].n, rng)
+            rows = tables.rows(course, unit, exercise, max(exercise.n, exercise.least), rng)
             cell["source"] += HIDDEN.format(name=name, table=json.dumps(rows))
     return document

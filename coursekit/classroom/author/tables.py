@@ -1,4 +1,4 @@
-"""The sample tables: public inputs, hashes of the right answer and of each typical mistake.
+"""The sample tables: public inputs, the right answer and that of each typical mistake, all as plain numbers.
 
 Instructors write them (`coursekit samples`); they are committed, and the same in the repository and in a
 release, so that a check takes one path everywhere.
@@ -7,14 +7,14 @@ release, so that a check takes one path everywhere.
 from __future__ import annotations
 
 import json
+import re
 import zlib
+from collections.abc import Callable
 from functools import cache
 from types import SimpleNamespace
 
 import numpy as np
 
-from .. import compare
-from ..check import salt
 from ..course import Course, the_course
 from ..exercise import Exercise, Misfit, answer, misshapen, thaw
 from . import notebook
@@ -32,26 +32,41 @@ def write_samples(course: Course | None = None) -> list[str]:
 def dump(tables: dict) -> str:
     """JSON, one example a line."""
     exercises = []
-    for name, rows in tables.items():
-        lines = ",\n".join("  " + json.dumps(row) for row in rows)
-        exercises.append(f"{json.dumps(name)}: [\n{lines}\n]")
+    for name, one in tables.items():
+        lines = ",\n".join("  " + json.dumps(row) for row in one["examples"])
+        head = f'{json.dumps(name)}: {{"place": {json.dumps(one["place"], ensure_ascii=False)}, "examples": ['
+        exercises.append(f"{head}\n{lines}\n]}}")
     return "{\n" + ",\n".join(exercises) + "\n}\n"
 
 
 def table(course: Course, unit: str) -> dict:
-    """{exercise: [{args, right, wrong: {hint: ...}}, ...]} of a unit."""
+    """{exercise: {place, examples}} of a unit."""
     tables = {}
+    places = sections(course, unit)
     for exercise in course.exercises(unit):
         missing = {hint.key for hint in exercise.hints} ^ set(course.wrong(unit).get(exercise.name, ()))
         if missing:
             raise ValueError(f"{exercise.name}: hint or wrong function missing: {', '.join(sorted(missing))}")
         rng = np.random.default_rng(zlib.crc32(f"samples/{unit}/{exercise.name}".encode()))
-        tables[exercise.name] = rows(course, unit, exercise, exercise.samples, rng)
+        examples = rows(course, unit, exercise, exercise.least + exercise.samples, rng)
+        tables[exercise.name] = {"place": places.get(exercise.name, ""), "examples": examples}
     return tables
 
 
+def sections(course: Course, unit: str) -> dict[str, str]:
+    """{exercise: the heading it stands under}, read off the solved notebook."""
+    places, heading = {}, ""
+    for cell in notebook.read(course.notebook(unit))["cells"]:
+        if cell["cell_type"] == "markdown":
+            found = re.findall(r"^#{2,3} +(.+)$", cell["source"], re.M)
+            heading = found[-1].strip() if found else heading
+        elif notebook.is_solution(cell):
+            places[cell["metadata"]["nbgrader"].get("grade_id", "")] = heading
+    return places
+
+
 def rows(course: Course, unit: str, exercise: Exercise, count: int, rng: np.random.Generator) -> list[dict]:
-    """The examples of one exercise."""
+    """The examples of one exercise: every edge, and drawn ones up to `count`."""
     right = getattr(solutions(course, unit), exercise.name, None)
     if right is None:
         raise ValueError(
@@ -59,32 +74,31 @@ def rows(course: Course, unit: str, exercise: Exercise, count: int, rng: np.rand
             "no cell with nbgrader.solution in its metadata defines it"
         )
     wrong = course.wrong(unit).get(exercise.name, {})
-    return [_row(exercise, k, rng, right, wrong) for k in range(count)]
+    made = []
+    for case, arguments, tol in exercise.draws(rng, count):
+        answers = {key: _answer(exercise, wrong[key], arguments, key) for key in wrong}
+        row = {"case": case, "args": arguments, "right": _answer(exercise, right, arguments, "the solution")}
+        made.append({**row, "wrong": answers, **({} if tol == exercise.tol else {"tol": tol})})
+    return made
 
 
-def _row(exercise: Exercise, k: int, rng, right, wrong: dict) -> dict:
-    arguments = exercise.arguments(rng)
+def _answer(exercise: Exercise, function: Callable, arguments: list, what: str) -> list:
+    """What a function answers, as plain data with ten digits: more than any tolerance needs."""
+    try:
+        with np.errstate(all="ignore"):
+            parts = answer(exercise, function(*thaw(arguments)))
+        if what == "the solution" and (text := misshapen(exercise, parts)):
+            raise Misfit(text)
+    except Misfit as misfit:
+        raise ValueError(f"{exercise.name}, {what}: {misfit}") from None
+    except Exception as error:
+        raise ValueError(f"{exercise.name}, {what} raised {type(error).__name__}: {error}") from error
+    return [_short(part) for part in parts]
 
-    def hashed(function, what):
-        try:
-            with np.errstate(all="ignore"):
-                parts = answer(exercise, function(*thaw(arguments)))
-            if function is right and (text := misshapen(exercise, parts)):
-                raise Misfit(text)
-        except Misfit as misfit:
-            raise ValueError(f"{exercise.name}, {what}: {misfit}") from None
-        except Exception as error:
-            raise ValueError(f"{exercise.name}, {what} raised {type(error).__name__}: {error}") from error
-        return [
-            compare.fingerprint(kind, part, exercise.tol, salt(exercise, k, i))
-            for i, (kind, part) in enumerate(zip(exercise.kinds, parts, strict=True))
-        ]
 
-    return {
-        "args": arguments,
-        "right": hashed(right, "the solution"),
-        "wrong": {hint.key: hashed(wrong[hint.key], hint.key) for hint in exercise.hints},
-    }
+def _short(part: np.ndarray) -> list | float:
+    digits = np.vectorize(lambda x: float(f"{x:.10g}"), otypes=[float])
+    return (digits(part) if part.size else part).tolist()
 
 
 @cache

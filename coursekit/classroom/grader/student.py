@@ -1,6 +1,6 @@
 """A student's notebook in a boxed kernel, and how it is asked for answers.
 
-This runs in the worker, which is trusted. Nothing the kernel says is: replies are read by `judge.decode`.
+This runs in the worker, which is trusted. Nothing the kernel says is: replies are read by `reply.decode`.
 """
 
 from __future__ import annotations
@@ -10,15 +10,17 @@ import secrets
 import time
 from pathlib import Path
 
+from ..attempt import Attempt
 from ..exercise import Exercise
 from . import cells
 from .box import Box, KernelLost, Limits
-from .judge import LARGEST, decode, expression
+from .reply import LARGEST, decode, expression
 
 # Runs in the student's kernel. Anything there may have been tampered with: that makes wrong answers, no more.
 ASK = """
-def _answers(name, calls, several):
+def _answers(name, calls, several, arguments):
     import base64
+    import copy
     import json
 
     import numpy as np
@@ -28,11 +30,11 @@ def _answers(name, calls, several):
             from coursekit import robots
 
             ((what, which),) = x.items()
-            robot = robots.all()[which]
+            robot = getattr(robots, which)()
             return robot if what == "robot" else robot.fk
         if isinstance(x, list):
             array = np.array(x)
-            return array.astype(float) if array.dtype.kind in "if" else x
+            return array if array.dtype.kind in "if" else x
         return x
 
     def numbers(value):
@@ -50,10 +52,16 @@ def _answers(name, calls, several):
     answers = []
     for call in json.loads(calls):
         try:
-            value = globals()[name](*[thaw(x) for x in call])
+            given = [thaw(x) for x in call]
+            before = [copy.deepcopy(x) if isinstance(x, (np.ndarray, list)) else None for x in given]
+            value = globals()[name](*given)
+            changed = [
+                n for n, a, b in zip(arguments, before, given) if a is not None and not np.array_equal(a, b)
+            ]
             if several and (not isinstance(value, (tuple, list)) or len(value) != several):
                 raise TypeError(str(several) + " things are expected")
-            answers.append(dict(parts=[numbers(x) for x in (value if several else [value])]))
+            parts = [numbers(x) for x in (value if several else [value])]
+            answers.append(dict(parts=parts, changed=(changed or [""])[0]))
         except KeyboardInterrupt:
             raise
         except BaseException as error:
@@ -79,23 +87,23 @@ class Student:
     def notes(self) -> list[str]:
         return [f"code cell {i + 1} hangs or ends the kernel; it was left out" for i in sorted(self.deadly)]
 
-    async def ask(self, exercise: Exercise, inputs: list[list]) -> list:
-        """The kernel's answers; KernelLost, or ValueError if they are malformed."""
+    async def ask(self, exercise: Exercise, inputs: list[list]) -> list[Attempt]:
+        """What the kernel answers to each call; KernelLost, or ValueError if that is malformed."""
         while self.box is None:
             await self._run_notebook()
         if time.monotonic() > self.end:
             raise KernelLost(f"the notebook took more than {self.limits.submission:g} s")
         nonce = secrets.token_hex(8)
         several = len(exercise.shapes) if exercise.several else 0
-        question = f"{nonce!r} + _answers({exercise.name!r}, {json.dumps(inputs)!r}, {several})"
+        call = f"_answers({exercise.name!r}, {json.dumps(inputs)!r}, {several}, {exercise.arguments!r})"
         try:
-            reply = await self.box.run(ASK, exercise.timeout, question)
+            reply = await self.box.run(ASK, exercise.timeout, f"{nonce!r} + {call}")
         except KernelLost:
             await self.stop()
             raise
         if reply.get("interrupted"):
             raise ValueError(f"took more than {exercise.timeout:g} s for {len(inputs)} inputs")
-        return decode(reply, nonce, len(inputs))
+        return decode(reply, nonce, exercise, len(inputs))
 
     async def _run_notebook(self) -> None:
         if self.left == 0 or time.monotonic() > self.end:

@@ -21,11 +21,12 @@ from pathlib import Path
 import numpy as np
 
 from ..author import tables
+from ..check import examples_of
 from ..course import Course, the_course
 from ..exercise import Exercise
+from ..verdict import Example, Verdict, verdict
 from . import cells
 from .box import KernelLost, Limits, bubblewrap
-from .judge import judge
 from .locked import locked_files, write_files
 from .student import Student
 
@@ -48,8 +49,7 @@ async def grade(job: dict) -> dict:
     course = Course(*map(Path, job["course"])) if job["course"] else the_course()
     limits = Limits(**job["limits"])
     exercises = course.exercises(job["unit"])
-    solved, wrong = tables.solutions(course, job["unit"]), course.wrong(job["unit"])
-    questions = {e.name: hidden_inputs(e, job["seed"], job["unit"]) for e in exercises}
+    questions = {e.name: hidden_examples(course, e, job["seed"], job["unit"]) for e in exercises}
     result = {e.name: {"points": 0, "of": e.points, "text": ""} for e in exercises}
     try:
         sources = cells.sources(base64.b64decode(job["notebook"]))
@@ -63,15 +63,14 @@ async def grade(job: dict) -> dict:
     try:
         write_files(job["library"], folder)
         for exercise in exercises:
-            row, inputs = result[exercise.name], questions[exercise.name]
+            row, examples = result[exercise.name], questions[exercise.name]
             try:
-                answers = await student.ask(exercise, inputs)
+                attempts = await student.ask(exercise, [example.arguments for example in examples])
             except (KernelLost, ValueError) as error:
                 row["text"] = f"no answer: {error}"
                 continue
-            right = getattr(solved, exercise.name)
-            row["text"] = judge(exercise, inputs, answers, right, wrong.get(exercise.name, {}))
-            row["points"] = 0 if row["text"] else exercise.points
+            found = verdict(exercise, examples, attempts)
+            row["text"], row["points"] = _told(found), exercise.points if found.right else 0
     finally:
         watch.cancel()
         await student.stop()
@@ -79,11 +78,27 @@ async def grade(job: dict) -> dict:
     return {"exercises": result, "notes": student.notes, "kernels": student.starts}
 
 
+def _told(found: Verdict) -> str:
+    """What the page says, in one line: what `check` would say of answers to these inputs."""
+    return "" if found.right else " ".join([found.say, *(f"({text})" for text in found.more)])
+
+
+def hidden_examples(course: Course, exercise: Exercise, seed: int, unit: str) -> list[Example]:
+    """Inputs and right answers that are the same for every student: what differs is what they wrote."""
+    rng = _hidden(exercise, seed, unit)
+    rows = tables.rows(course, unit, exercise, max(exercise.n, exercise.least), rng)
+    return examples_of(exercise, {"examples": rows})
+
+
 def hidden_inputs(exercise: Exercise, seed: int, unit: str) -> list[list]:
-    """The same for every student: what differs is only what they wrote."""
+    """The arguments alone."""
+    rng = _hidden(exercise, seed, unit)
+    return [arguments for _, arguments, _ in exercise.draws(rng, max(exercise.n, exercise.least))]
+
+
+def _hidden(exercise: Exercise, seed: int, unit: str) -> np.random.Generator:
     name = zlib.crc32(f"{unit}/{exercise.name}".encode())  # hash() of a string differs from run to run
-    rng = np.random.default_rng(np.random.SeedSequence([seed, name]))
-    return [exercise.arguments(rng) for _ in range(exercise.n)]
+    return np.random.default_rng(np.random.SeedSequence([seed, name]))
 
 
 def library(course: Course, unit: str, seed: int) -> dict[str, str]:

@@ -1,0 +1,239 @@
+"""One call of a student's function: what it answers, or what went wrong, in which line, with which values.
+
+The function runs under Python's own trace hook, which counts its lines: an endless loop ends after a fixed
+number of them, on every machine the same, and with the line it was in. Nothing is interrupted by a signal or
+left running in a thread, so that it works the same on Windows and in a browser.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import copy
+import inspect
+import io
+import linecache
+import re
+import sys
+import time
+import traceback
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+from types import CodeType, FrameType
+from typing import Any
+
+import numpy as np
+
+from .course import PACKAGE
+from .exercise import Exercise, Misfit, answer, misshapen, thaw
+from .library import library_call
+from .source import catches_everything
+
+LINES = 200_000  # of the student's, in one call
+SECONDS = 20.0  # a backstop, for lines that take very long
+CALL = 8  # a call of a library costs as much as so many lines
+SHOWN = 4  # variables told beside an error
+LIBRARIES = tuple(str(Path(p).resolve()) for p in (sys.prefix, sys.base_prefix, str(PACKAGE), np.__path__[0]))
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """What one call gave: an answer (then `fault` is ''), or a fault.
+
+    fault : "" or a kind of verdict: unwritten, error, misfit; `text` says it in a sentence.
+    line  : in which line of the function it went wrong, 0 if that is not known.
+    """
+
+    parts: tuple[np.ndarray, ...] = ()
+    fault: str = ""
+    text: str = ""
+    line: int = 0
+    changed: str = ""  # an argument that is not what it was before
+    whole: bool = False  # the answer came as whole numbers
+    calls: tuple[str, ...] = ()  # functions of coursekit.kinematics that it called
+    printed: str = ""
+    endless: bool = False
+    cost: int = 0  # lines that were executed, and what calls of libraries in them cost
+
+
+class Endless(BaseException):
+    """More lines than any right answer needs. Not an Exception: nobody handles it by mistake."""
+
+
+def attempt(exercise: Exercise, function: Callable, arguments: list) -> Attempt:
+    """Call a student's function once, with fresh arguments made from plain data."""
+    given = thaw(arguments)
+    kept = copy.deepcopy([x for x in given if isinstance(x, np.ndarray | list)])
+    watch, printed = _Watch(), io.StringIO()
+    try:
+        with _quietly(printed), watch:
+            value = function(*given)
+        found = _read(exercise, value, printed.getvalue())
+    except NotImplementedError:
+        found = Attempt(fault="unwritten", text="not written yet")
+    except Endless:
+        found = _endless(watch)
+    except Exception as error:
+        found = _explain(exercise, function, error, arguments)
+    now = [x for x in given if isinstance(x, np.ndarray | list)]
+    names = [n for n, x in zip(exercise.arguments, given, strict=False) if isinstance(x, np.ndarray | list)]
+    changed = next((n for n, a, b in zip(names, kept, now, strict=False) if not _equal(a, b)), "")
+    return replace(
+        found, changed=changed, calls=tuple(watch.calls), printed=printed.getvalue(), cost=watch.cost
+    )
+
+
+def line_of_nan(function: Callable, arguments: list) -> tuple[int, str]:
+    """(line, what numpy says) where NaN or infinity first arises, (0, '') if that cannot be found."""
+    try:
+        with _quietly(io.StringIO()), np.errstate(divide="raise", invalid="raise"):
+            function(*thaw(arguments))
+    except FloatingPointError as error:
+        frame, line = _place(error, function)
+        return line - frame.f_code.co_firstlineno + 1 if frame else 0, str(error)
+    except Exception:
+        pass
+    return 0, ""
+
+
+def _read(exercise: Exercise, value: Any, printed: str) -> Attempt:
+    try:
+        parts = answer(exercise, value)
+    except Misfit as misfit:
+        text = str(misfit)
+        if value is None and printed:
+            text = "it prints the answer and returns None: put `return` in place of `print`"
+        return Attempt(fault="misfit", text=text)
+    whole = any(np.asarray(x).dtype.kind in "biu" for x in (value if exercise.several else [value]))
+    found = Attempt(parts=tuple(parts), whole=whole)
+    text = misshapen(exercise, parts)
+    return replace(found, fault="misfit", text=text) if text else found
+
+
+def _equal(a: Any, b: Any) -> bool:
+    if isinstance(a, np.ndarray):
+        return (
+            a.shape == b.shape and a.dtype == b.dtype and np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
+        )
+    return bool(a == b)
+
+
+@contextlib.contextmanager
+def _quietly(printed: io.StringIO):
+    """What a function prints is kept; numpy's warnings come back as sentences of ours."""
+    with (
+        contextlib.redirect_stdout(printed),
+        warnings.catch_warnings(),
+        np.errstate(all="ignore"),
+    ):
+        warnings.simplefilter("ignore")
+        yield
+
+
+# ---- counting lines
+
+
+class _Watch:
+    """Counts the student's lines, and notes which functions of the library they call."""
+
+    def __init__(self) -> None:
+        self.lines = self.cost = 0
+        self.calls: list[str] = []
+        self.frame: FrameType | None = None
+        self.line = 0
+
+    def __enter__(self) -> _Watch:
+        self.end = time.monotonic() + SECONDS
+        self.before = sys.gettrace()
+        sys.settrace(self._call)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        sys.settrace(self.before)
+
+    def _call(self, frame: FrameType, event: str, _: Any):
+        if name := library_call(frame):
+            self.calls.append(name)
+        if _is_library(frame.f_code.co_filename):
+            self.cost += CALL
+            return None
+        return self._line
+
+    def _line(self, frame: FrameType, event: str, _: Any):
+        self.lines += event == "line"
+        self.cost += event == "line"
+        late = self.lines % 1000 == 0 and time.monotonic() > self.end
+        if (self.lines > LINES or late) and not catches_everything(frame):
+            self.frame, self.line = frame, frame.f_lineno
+            raise Endless
+        return self._line
+
+
+@cache
+def _is_library(filename: str) -> bool:
+    return filename.startswith(("<frozen", "<__array_function__")) or (
+        not filename.startswith("<") and str(Path(filename).resolve()).startswith(LIBRARIES)
+    )
+
+
+def _endless(watch: _Watch) -> Attempt:
+    if watch.frame is None:
+        return Attempt(fault="error", text="it does not end", endless=True)
+    code, line = watch.frame.f_code, watch.line - watch.frame.f_code.co_firstlineno + 1
+    text = f"it does not end: after {LINES:,} lines it is still in line {line} of {code.co_name}"
+    return Attempt(fault="error", text=text + _source_line(code, watch.line), line=line, endless=True)
+
+
+# ---- what was raised
+
+
+def _explain(exercise: Exercise, function: Callable, error: Exception, arguments: list) -> Attempt:
+    """What was raised, in which line of the student's code, and what the variables in it were."""
+    try:
+        inspect.signature(function).bind(*arguments)
+    except TypeError:
+        return Attempt(fault="error", text=f"it does not take the arguments of {exercise.signature}")
+    except ValueError:  # a function without a signature
+        pass
+    text = f"{type(error).__name__}: {str(error).partition(chr(10))[0].strip()}"[:200]
+    frame, at = _place(error, function)
+    if frame is None:
+        return Attempt(fault="error", text=f"it raises {text}")
+    line = at - frame.f_code.co_firstlineno + 1
+    text = f"line {line} of {frame.f_code.co_name} raises {text}{_source_line(frame.f_code, at)}"
+    if told := _variables(frame, at):
+        text += f"\n  there {told}"
+    return Attempt(fault="error", text=text, line=line)
+
+
+def _place(error: Exception, function: Callable) -> tuple[FrameType | None, int]:
+    """(frame, line) of the student's code that is nearest to the error."""
+    ours = [f for f in traceback.walk_tb(error.__traceback__) if not _is_library(f[0].f_code.co_filename)]
+    return ours[-1] if ours else (None, 0)
+
+
+def _source_line(code: CodeType, at: int) -> str:
+    source = linecache.getline(code.co_filename, at).strip()
+    return f": `{source}`" if source else ""
+
+
+def _variables(frame: FrameType, at: int) -> str:
+    """ "i = 2, rows has shape (2, 4)": the variables of the line, or the first ones if it cannot be read."""
+    here = {k: v for k, v in frame.f_locals.items() if not callable(v) and not inspect.ismodule(v)}
+    named = re.findall(r"[A-Za-z_]\w*", linecache.getline(frame.f_code.co_filename, at))
+    names = [n for n in dict.fromkeys(named) if n in here] if named else list(here)
+    return ", ".join(_brief(name, here[name]) for name in names[:SHOWN])
+
+
+def _brief(name: str, value: Any) -> str:
+    if isinstance(value, np.ndarray) and value.ndim:
+        return f"{name} has shape {value.shape}"
+    if isinstance(value, list | tuple):
+        return f"{name} has {len(value)} entries"
+    if isinstance(value, bool | np.bool_):
+        return f"{name} is {value}"
+    if isinstance(value, float | int | np.number):
+        return f"{name} = {value:.4g}"
+    return f"{name} is {value!r}"[:40]

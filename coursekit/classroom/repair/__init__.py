@@ -1,0 +1,203 @@
+"""Where is the code wrong? The one edit of a student's function that makes it right on every example.
+
+The function is tried with single edits, one after the other, the likely ones first, until a fixed number of
+executed lines is used up: the same code gets the same sentence on every machine. What is told is the line and
+the kind of the edit. The edit itself is never shown. Nor is anything told
+if lines that are far apart would both do.
+"""
+
+from __future__ import annotations
+
+import ast
+import itertools
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .. import compare
+from ..exercise import Exercise, Misfit, answer, misshapen, thaw
+from . import places
+from .lines import line_edits, name_edits
+from .places import LOCALS, PROBE, Place, Variant
+from .sandbox import Sandbox, Stop, Unfit
+from .texts import phrase, sentence
+
+BUDGET = 800_000  # executed lines, of the student's and of what they call
+
+
+@dataclass(frozen=True)
+class Found:
+    """text: "look at line 4: a sign"; phrase: "a sign in line 4", for the moment when it is mended."""
+
+    text: str
+    phrase: str
+
+
+@dataclass(frozen=True)
+class _Hit:
+    rank: int
+    line: int
+    kind: str
+    what: str
+
+
+def repair(exercise: Exercise, function: Callable, examples: list, cost: int) -> Found | None:
+    """The place and kind of the edit that makes the function right on all examples; None if there is no one.
+
+    examples : of `verdict.Example`, those where the function is wrong first
+    cost : lines that one call of the function executes
+    """
+    try:
+        search = _Search(exercise, function, examples, max(1, BUDGET // max(cost, 12)))
+    except Unfit:
+        return None
+    with np.errstate(all="ignore"):
+        hits = search.hits()
+    if not hits:
+        return None
+    best = min(hit.rank for hit in hits)
+    hits = [hit for hit in hits if hit.rank == best]
+    lines = sorted({hit.line - search.first + 1 if hit.line else 0 for hit in hits})
+    if len(lines) > 2 or lines[-1] - lines[0] > 1:
+        return None  # it could be here or there
+    kinds = [(hit.kind, hit.what) for hit in hits]
+    return Found(sentence(kinds, lines), phrase(kinds, lines))
+
+
+class _Search:
+    def __init__(self, exercise: Exercise, function: Callable, examples: list, trials: int) -> None:
+        self.exercise, self.examples, self.left = exercise, examples, trials
+        self.box = Sandbox(function)
+        self.tree = self.box.tree
+        self.first = self.tree.lineno
+        self.chosen: dict[int, Variant] = {}
+        self.ordinary: dict[int, Callable] = {}
+        self.box.names[PROBE], self.box.names[LOCALS] = self._probe, locals
+
+    def _probe(self, key: int, pieces: tuple, variables: dict) -> Any:
+        variant = self.chosen.get(key)
+        return (self.ordinary[key] if variant is None else variant.value)(pieces, variables)
+
+    def hits(self) -> list[_Hit]:
+        found: list[_Hit] = []
+        for rank, trials in self._in_order():
+            for hit in trials:
+                if hit is not None:
+                    found.append(hit)
+                if self.left <= 0:
+                    break
+            if found and rank >= min(hit.rank for hit in found):
+                break
+            if self.left <= 0:
+                break
+        return found
+
+    def _in_order(self) -> Iterator[tuple[int, Iterable[_Hit | None]]]:
+        every = list(places.places(self.tree))
+        yield 0, itertools.chain(self._edited(line_edits), self._places(every, 0))
+        yield (
+            1,
+            itertools.chain(
+                self._edited(name_edits),
+                self._groups(every, 0),
+                self._places(every, 1),
+                self._groups(every, 1),
+            ),
+        )
+        yield 2, itertools.chain(self._arguments(), self._places(every, 2))
+        yield 3, itertools.chain(self._groups(every, 2), self._places(every, 3))
+
+    # ---- the edits
+
+    def _edited(self, edits: Callable) -> Iterator[_Hit | None]:
+        for edit in list(edits(self.tree)):
+            back = edit.put()
+            try:
+                good = self._right(self.box.compile())
+            except (SyntaxError, ValueError, TypeError):
+                good = False
+            finally:
+                back()
+            rank = 0 if edits is line_edits else 1
+            yield _Hit(rank, edit.line, edit.kind, edit.what) if good else None
+
+    def _places(self, every: list[Place], rank: int) -> Iterator[_Hit | None]:
+        for place in every:
+            variants = [v for v in place.variants if v.rank == rank]
+            if variants:
+                yield from self._try([place], variants, rank, place.node.lineno)
+
+    def _groups(self, every: list[Place], rank: int) -> Iterator[_Hit | None]:
+        """The same edit at all places that look alike: every arctan2, every use of a name."""
+        groups: dict[str, list[Place]] = {}
+        for place in every:
+            if key := places.likeness(place.node):
+                groups.setdefault(key, []).append(place)
+        for group in groups.values():
+            lines = {place.node.lineno for place in group}
+            alike = len({len(place.variants) for place in group}) == 1
+            if len(group) > 1 and alike:
+                variants = [v for v in group[0].variants if v.rank == rank]
+                yield from self._try(group, variants, rank + 1, lines.pop() if len(lines) == 1 else 0)
+
+    def _arguments(self) -> Iterator[_Hit | None]:
+        """An argument that comes in another form than the code thinks."""
+        for name in self.exercise.arguments:
+            line = ast.Assign([ast.Name(name, ast.Store())], ast.Name(name, ast.Load()))
+            places.located(line, self.tree)
+            self.tree.body.insert(0, line)
+            place = places.argument(line)
+            try:
+                yield from self._try([place], place.variants, 2, self.tree.lineno)
+            finally:
+                self.tree.body.remove(line)
+
+    def _try(
+        self, group: list[Place], variants: Iterable[Variant], rank: int, line: int
+    ) -> Iterator[_Hit | None]:
+        """Compile once with probes in these places; then every variant, at all of them."""
+        inner_first = list(enumerate(group))[::-1]  # a place may stand inside another
+        back = [place.put(key) for key, place in inner_first]
+        try:
+            function = self.box.compile()
+        except (SyntaxError, ValueError, TypeError):
+            return
+        finally:
+            for undo in reversed(back):
+                undo()
+        self.ordinary = {key: place.ordinary for key, place in enumerate(group)}
+        index = {id(v): k for k, v in enumerate(group[0].variants)}
+        for variant in variants:
+            k = index[id(variant)]
+            self.chosen = {key: place.variants[k] for key, place in enumerate(group)}
+            kind = variant.kind if len(group) == 1 else f"every_{variant.kind}"
+            what = variant.what or (places.likeness(group[0].node) if len(group) > 1 else "")
+            yield _Hit(rank, line, kind, what) if self._right(function) else None
+            if self.left <= 0:
+                break
+
+    # ---- is it right now?
+
+    def _right(self, function: Callable) -> bool:
+        for example in self.examples:
+            self.left -= 1
+            self.box.ticks = 0
+            given = thaw(example.arguments)
+            try:
+                value = answer(self.exercise, function(*given))
+            except (Misfit, Exception, Stop):
+                return False
+            if misshapen(self.exercise, value) or not example.agrees(value):
+                return False
+            if not _untouched(given, example.arguments):
+                return False
+        return True
+
+
+def _untouched(given: list, arguments: list) -> bool:
+    return all(
+        not isinstance(a, np.ndarray) or compare.same("close", a, b, 0)
+        for a, b in zip(given, thaw(arguments), strict=True)
+    )

@@ -1,0 +1,163 @@
+"""A copy of the notebook's names in which a student's function can be tried a thousand times without a trace.
+
+The function and those of the student's that it calls are compiled again, into names of their own, with a
+counter in every loop. What could leave a trace (files, plots, random numbers, prints) is not tried at all.
+"""
+
+from __future__ import annotations
+
+import ast
+import copy
+from collections.abc import Callable
+from types import CodeType, FunctionType, ModuleType
+from typing import Any
+
+import numpy as np
+
+from ..source import definition
+
+TICK = "__tick"
+TICKS = 3_000  # rounds of loops in one trial
+MODULES = ("numpy", "math", "cmath", "itertools", "functools", "copy", "scipy.linalg")
+# What could leave a trace, or never come back.
+REFUSED = (
+    "open",
+    "input",
+    "exec",
+    "eval",
+    "exit",
+    "quit",
+    "compile",
+    "breakpoint",
+    "globals",
+    "vars",
+    "setattr",
+)
+TRACES = (
+    *(
+        "save",
+        "savez",
+        "savez_compressed",
+        "savetxt",
+        "tofile",
+        "dump",
+        "fromfile",
+        "memmap",
+        "load",
+        "loadtxt",
+    ),
+    *("genfromtxt", "random", "seterr", "setflags", "set_printoptions", "show", "plot", "figure", "system"),
+)
+
+
+class Stop(BaseException):
+    """More rounds of loops than any right answer needs."""
+
+
+class Unfit(Exception):
+    """This function cannot be tried safely."""
+
+
+class Sandbox:
+    """Names for trials of one function. `tree` may be edited; `compile()` then gives the edited function.
+
+    Unfit if the function has no text, or does what must not be tried.
+    """
+
+    def __init__(self, function: Callable) -> None:
+        self.ticks = 0
+        self.names: dict[str, Any] = {TICK: self._tick, "print": lambda *a, **k: None, "__name__": "trial"}
+        self.tree = self._copy(function)
+        self.name = self.tree.name
+        self.defaults = getattr(function, "__defaults__", None)
+
+    def compile(self) -> FunctionType:
+        """The function as its tree stands now."""
+        module = ast.Module([self.tree], [])
+        code = compile(module, "<trial>", "exec")
+        inner = next(c for c in code.co_consts if isinstance(c, CodeType) and c.co_name == self.name)
+        function = FunctionType(inner, self.names, self.name, self.defaults)
+        self.names[self.name] = function  # it may call itself
+        return function
+
+    def _tick(self) -> None:
+        self.ticks += 1
+        if self.ticks > TICKS:
+            raise Stop
+
+    def _copy(self, function: Callable) -> ast.FunctionDef:
+        """The function's tree, with a counter in its loops; all that it refers to goes into the names."""
+        tree = definition(function)
+        if tree is None or tree.decorator_list:
+            raise Unfit("no text of it")
+        tree.returns = None
+        tree.args.defaults, tree.args.kw_defaults = [ast.Constant(None) for _ in tree.args.defaults], []
+        for argument in ast.walk(tree.args):
+            if isinstance(argument, ast.arg):
+                argument.annotation = None
+        ast.fix_missing_locations(tree)
+        _refuse_traces(tree)
+        for loop in [n for n in ast.walk(tree) if isinstance(n, ast.For | ast.While)]:
+            tick = ast.Expr(ast.Call(ast.Name(TICK, ast.Load()), [], []))
+            loop.body.insert(0, ast.fix_missing_locations(ast.copy_location(tick, loop)))
+        own = {n.id for n in ast.walk(tree) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
+        own |= {a.arg for a in ast.walk(tree) if isinstance(a, ast.arg)} | {tree.name, TICK}
+        own |= {(a.asname or a.name).split(".")[0] for n in _imports(tree) for a in n.names}
+        cells = dict(zip(function.__code__.co_freevars, function.__closure__ or (), strict=True))
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Name) and node.id not in own and node.id not in self.names:
+                self._bring(node.id, function, cells)
+        return tree
+
+    def _bring(self, name: str, function: Callable, cells: dict) -> None:
+        if name in cells:
+            value = cells[name].cell_contents
+        elif name in function.__globals__:
+            value = function.__globals__[name]
+        elif name in REFUSED:
+            raise Unfit(f"it uses {name}")
+        else:
+            return  # a builtin, or a NameError as in the notebook
+        self.names[name] = self._copied(name, value)
+
+    def _copied(self, name: str, value: Any) -> Any:
+        if isinstance(value, ModuleType):
+            if value.__name__.split(".")[0] == "coursekit" and "view" not in value.__name__:
+                return value
+            if value.__name__ in MODULES or value.__name__.startswith("numpy"):
+                return value
+            raise Unfit(f"it uses {value.__name__}")
+        if isinstance(value, np.ndarray | list | dict | set):
+            return copy.deepcopy(value)
+        module = getattr(value, "__module__", "") or ""
+        if isinstance(value, FunctionType) and not module.startswith(("numpy", "coursekit.kinematics")):
+            return self._helper(name, value)
+        if callable(value) and not module.startswith(
+            ("numpy", "math", "coursekit.kinematics", "builtins", "scipy.linalg")
+        ):
+            raise Unfit(f"it calls {name}")
+        return value
+
+    def _helper(self, name: str, function: FunctionType) -> FunctionType:
+        """One of the student's own functions, with counted loops and without a way into the notebook."""
+        self.names[name] = None  # so that functions that call each other come to an end
+        tree = self._copy(function)
+        code = compile(ast.Module([tree], []), "<trial>", "exec")
+        inner = next(c for c in code.co_consts if isinstance(c, CodeType) and c.co_name == tree.name)
+        return FunctionType(inner, self.names, name, function.__defaults__)
+
+
+def _imports(tree: ast.AST):
+    return [n for n in ast.walk(tree) if isinstance(n, ast.Import | ast.ImportFrom)]
+
+
+def _refuse_traces(tree: ast.FunctionDef) -> None:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Attribute) and node.attr in TRACES:
+            raise Unfit(f"it uses {node.attr}")
+        if isinstance(node, ast.Global | ast.Nonlocal | ast.With | ast.Yield | ast.YieldFrom | ast.Await):
+            raise Unfit("it reaches outside of itself")
+    for node in _imports(tree):
+        names = [node.module or ""] if isinstance(node, ast.ImportFrom) else [a.name for a in node.names]
+        if not all(n.startswith(("numpy", "coursekit", *MODULES)) for n in names):
+            raise Unfit(f"it imports {', '.join(names)}")

@@ -1,0 +1,92 @@
+"""What a student reads of an edit: its kind and its line, never the edit."""
+
+from __future__ import annotations
+
+# kind -> what to look at; {} is a name of the student's own code
+TEXTS = {
+    "sign": "a sign",
+    "operator": "an operator between two things",
+    "order": "the order of two factors or terms",
+    "brackets": "the brackets: what is divided by what",
+    "extra": "a factor or a term too many",
+    "arguments": "the order of the arguments of `{}`",
+    "function": "`{}`: another function is needed there",
+    "call": "`{}`: a call too many",
+    "keyword": "the keyword `{}`",
+    "comparison": "the comparison",
+    "number": "a number",
+    "name": "`{}`: another variable belongs there",
+    "index": "an index or a slice",
+    "entries": "the order of the entries",
+    "transposed": "something that is transposed, or should be",
+    "inverse": "an inverse that is missing",
+    "reversed": "an order from last to first",
+    "half": "a factor 2",
+    "turn": "half a turn or a whole one, pi or 2 pi",
+    "root": "a root or a square that is missing",
+    "unit_length": "a vector that should have length 1",
+    "degrees": "degrees and radians",
+    "absolute": "a size without its sign",
+    "copy": "an array that is changed after it was stored: a copy is missing",
+    "one_minus": "a value and what it lacks to 1",
+    "upside_down": "a fraction that stands upside down",
+    "millimetres": "metres and millimetres",
+    "whole_numbers": "an array of whole numbers: decimals are cut off in it",
+    "halves": "the order of the two halves",
+    "negative_root": "a root of a number that may be negative",
+    "flipped": "the order of the columns",
+    "missing": "`{}` is missing there",
+    "line": "this line is one too many",
+    "lines": "this line and the next one: their order",
+    "return": "`return` stands inside the loop",
+    "indented": "a line stands inside the loop that belongs below it, or the other way round",
+    "unpacked": "the order of the names on the left",
+    "mixed_up": "`{}` have changed places",
+    "places": "two terms or factors that have changed places",
+    "in_place": "an assignment that changes an array in place",
+    "somewhere": "something in this line",
+}
+EVERY = {
+    "arguments": "the order of the arguments in every `{}`",
+    "function": "every `{}`: another function is needed",
+    "operator": "every `{}`: another operator is needed",
+    "order": "the order of the factors at every `{}`",
+    "index": "the order of the two indices, everywhere",
+    "call": "every `{}`: a call too many",
+    "number": "the number {}, everywhere",
+    "name": "`{}`, everywhere: another variable belongs there",
+}
+
+
+def phrase(kinds: list[tuple[str, str]], lines: list[int]) -> str:
+    """ "a sign in line 4": what it was, for the moment when it is mended."""
+    where = _lines(lines)
+    return f"{_what(kinds)} in {where}" if where else _what(kinds)
+
+
+def sentence(kinds: list[tuple[str, str]], lines: list[int]) -> str:
+    """ "look at line 4: a sign", from the kinds of all edits that would do, and their lines."""
+    where = _lines(lines)
+    return f"look at {where}: {_what(kinds)}" if where else f"look at {_what(kinds)}"
+
+
+def _lines(lines: list[int]) -> str:
+    """The line of the `def` stands for the arguments, line 0 for several places at once."""
+    if lines[-1] < 2:
+        return ""
+    return f"line {lines[0]}" if len(lines) == 1 else f"lines {lines[0]} and {lines[1]}"
+
+
+def _what(kinds: list[tuple[str, str]]) -> str:
+    """One kind, or two of which either may be meant; three kinds say nothing."""
+    texts = list(dict.fromkeys(_one(kind, what) for kind, what in kinds))
+    return " or ".join(texts) if len(texts) < 3 else TEXTS["somewhere"]
+
+
+def _one(kind: str, what: str) -> str:
+    if kind.startswith("every_"):
+        kind = kind.removeprefix("every_")
+        if kind in EVERY:
+            return EVERY[kind].format(what)
+        return f"{TEXTS[kind].format(what)}, wherever `{what}` stands"
+    return TEXTS[kind].format(what)

@@ -1,0 +1,88 @@
+"""What could have been done to a value, or forgotten: a sign, a root, an inverse, a factor, a term."""
+
+from __future__ import annotations
+
+import ast
+import copy
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from .variants import Variant, variable
+
+_DONE: tuple[tuple[str, Callable], ...] = (
+    ("sign", lambda x: -x),
+    ("transposed", lambda x: np.swapaxes(x, -1, -2)),
+    ("inverse", np.linalg.inv),
+    ("reversed", lambda x: x[::-1]),
+    ("half", lambda x: x / 2),
+    ("half", lambda x: 2 * x),
+    ("turn", lambda x: x + np.pi),
+    ("turn", lambda x: np.pi - x),
+    ("root", np.sqrt),
+    ("root", lambda x: x * x),
+    ("unit_length", lambda x: x / np.linalg.norm(x)),
+    ("unit_length", lambda x: x / np.linalg.norm(x, axis=-1, keepdims=True)),
+    ("degrees", np.radians),
+    ("degrees", np.degrees),
+    ("absolute", np.abs),
+    ("copy", copy.copy),
+    ("one_minus", lambda x: 1 - x),
+    ("upside_down", lambda x: 1 / x),
+    ("millimetres", lambda x: x / 1000),
+    ("millimetres", lambda x: 1000 * x),
+    ("whole_numbers", lambda x: np.asarray(x, float)),
+    ("turn", lambda x: (x + np.pi) % (2 * np.pi) - np.pi),
+    ("halves", lambda x: np.roll(x, 3, axis=0)),
+    ("negative_root", lambda x: np.maximum(x, 0)),
+    ("flipped", lambda x: x[:, ::-1]),
+)
+
+_ENTRIES = 3  # the first entries of a vector may be what is missing
+_JOINED: tuple[Callable, ...] = (
+    lambda x, y: x + y,
+    lambda x, y: x - y,
+    lambda x, y: x * y,
+    lambda x, y: x @ y,
+    lambda x, y: y @ x,
+    lambda x, y: x / y,
+    np.hypot,
+)
+
+
+def wraps(ordinary: Callable, variables: list[str], node: ast.expr) -> Iterator[Variant]:
+    """Something done to the value of a node, or a variable joined to it."""
+    if isinstance(node, ast.List | ast.Tuple):  # -[1, 2] is none
+        ordinary = _as_array(ordinary)
+    for kind, do in _DONE:
+        yield Variant(kind, _done(ordinary, do), rank=1 if kind in ("sign", "transposed", "inverse") else 2)
+    inside = {n.id for n in ast.walk(node) if isinstance(n, ast.Name)}
+    for name in variables:
+        for join in _JOINED:
+            rank = 3 if name in inside else 2
+            yield Variant("missing", _joined(ordinary, join, variable(name)), what=name, rank=rank)
+    for name in variables:
+        for k in range(_ENTRIES):
+            for join in _JOINED[:3]:
+                yield Variant("missing", _joined(ordinary, join, _entry(name, k)), what=name, rank=3)
+
+
+def _as_array(ordinary: Callable) -> Callable:
+    return lambda p, v: np.array(ordinary(p, v))
+
+
+def _done(ordinary: Callable, do: Callable) -> Callable:
+    return lambda p, v: do(ordinary(p, v))
+
+
+def _joined(ordinary: Callable, join: Callable, other: Callable) -> Callable:
+    return lambda p, v: join(ordinary(p, v), other(p, v))
+
+
+def _entry(name: str, k: int) -> Callable:
+    def value(p, v):
+        if np.ndim(v[name]) != 1:
+            raise TypeError("no vector")
+        return v[name][k]
+
+    return value

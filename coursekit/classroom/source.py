@@ -1,0 +1,59 @@
+"""The text of a student's function: its syntax tree, wherever the function was written."""
+
+from __future__ import annotations
+
+import ast
+import linecache
+from collections.abc import Callable
+from functools import lru_cache
+from types import CodeType, FrameType
+
+
+def definition(function: Callable) -> ast.FunctionDef | None:
+    """A fresh syntax tree of the function, with the lines of its file or cell; None where there is no text.
+
+    Jupyter keeps the text of every cell that was run; functions made by `exec` of a string have none.
+    """
+    code = getattr(function, "__code__", None)
+    if not isinstance(code, CodeType):
+        return None
+    text = "".join(linecache.getlines(code.co_filename))
+    for node in ast.walk(_parsed(text) or ast.Module([], [])):
+        if isinstance(node, ast.FunctionDef) and node.name == code.co_name:
+            first = min([node.lineno, *(d.lineno for d in node.decorator_list)])
+            if first == code.co_firstlineno:
+                fresh = ast.parse(text)  # the caller may change it
+                same = [
+                    n for n in ast.walk(fresh) if isinstance(n, ast.FunctionDef) and n.lineno == node.lineno
+                ]
+                return same[0]
+    return None
+
+
+@lru_cache(16)
+def _parsed(text: str) -> ast.Module | None:
+    try:
+        return ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError):
+        return None
+
+
+def catches_everything(frame: FrameType) -> bool:
+    """Does this line stand where a bare `except` would swallow whatever is raised in it?"""
+    return frame.f_lineno in _swallowed("".join(linecache.getlines(frame.f_code.co_filename)))
+
+
+@lru_cache(16)
+def _swallowed(text: str) -> frozenset[int]:
+    tree = _parsed(text)
+    lines: set[int] = set()
+    for node in ast.walk(tree or ast.Module([], [])):
+        if isinstance(node, ast.Try) and any(_is_bare(handler) for handler in node.handlers):
+            for statement in node.body:
+                lines.update(range(statement.lineno, (statement.end_lineno or statement.lineno) + 1))
+    return frozenset(lines)
+
+
+def _is_bare(handler: ast.ExceptHandler) -> bool:
+    caught = ast.walk(handler.type) if handler.type else [ast.Name("BaseException")]
+    return any(isinstance(node, ast.Name) and node.id == "BaseException" for node in caught)

@@ -1,0 +1,271 @@
+"""One ladder for the student's check and for the grader: what is wrong, by the first step that can say it.
+
+1. it cannot be judged: not written, raises, returns no such thing, changes its arguments
+2. right
+3. a mistake that has a name (the hints of the exercise)
+4. what was done to the right answer (`transforms`)
+5. where the code is wrong (`repair`); only with the function itself
+6. what is right already, in the words of the exercise (`already`)
+7. by how much it misses, in the terms of the course; only with the function itself
+
+The grader judges answers to hidden inputs and has no function: it tells nothing that depends on an input.
+"""
+
+from __future__ import annotations
+
+import dis
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from types import CodeType
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import compare
+from .already import not_a_pose, what_is_right
+from .attempt import Attempt, line_of_nan
+from .exercise import Exercise, misshapen, thaw
+from .library import permitted
+from .repair import Found, repair
+from .transforms import done_to_the_right_answer
+
+Parts = tuple[np.ndarray, ...]
+
+
+@dataclass(frozen=True)
+class Example:
+    """Arguments, the right answer, and the answers of the typical mistakes."""
+
+    exercise: Exercise
+    case: str
+    arguments: list
+    right: Parts
+    wrong: dict[str, Parts]
+    tol: ArrayLike
+
+    def tolerance(self, part: int) -> np.ndarray:
+        return np.asarray(self.tol)
+
+    def agrees(self, parts: Parts, right: Parts | None = None) -> bool:
+        """Is this answer the right one (or the one given)? A law decides where several answers are right."""
+        if self.exercise.compare == "any_solution" and right is None:
+            return bool(np.all([np.isfinite(p).all() for p in parts])) and not broken_law(self, parts)
+        pairs = zip(self.exercise.kinds, parts, self.right if right is None else right, strict=True)
+        return all(compare.same(kind, a, b, self.tolerance(i)) for i, (kind, a, b) in enumerate(pairs))
+
+    def masks(self, parts: Parts) -> Parts:
+        """Which entries are right."""
+        return tuple(
+            compare.mask(kind, a, b, self.tolerance(i))
+            if a.shape == b.shape
+            else np.zeros(np.broadcast_shapes(b.shape), bool)
+            for i, (kind, a, b) in enumerate(zip(self.exercise.kinds, parts, self.right, strict=True))
+        )
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """kind  : right, unwritten, error, misfit, library, named, placed or different.
+    say   : the shortest true sentence.
+    more  : what is right already, and by how much the rest misses.
+    step  : what found it: a hint's key, "done", "repair", "ignored", "already", "residual", ...
+    example: number of an example that shows it, -1 if none does.
+    mended: what to say when it is right the next time: "a sign in line 4"; "" if there is nothing to say.
+    """
+
+    kind: str
+    say: str
+    more: tuple[str, ...] = field(default=())
+    step: str = ""
+    example: int = -1
+    mended: str = ""
+
+    @property
+    def right(self) -> bool:
+        return self.kind == "right"
+
+
+def verdict(
+    exercise: Exercise,
+    examples: list[Example],
+    attempts: list[Attempt],
+    function: Callable | None = None,
+    allowed: tuple[str, ...] = (),
+) -> Verdict:
+    """What is to be said of a student's answers to these examples.
+
+    Parameters
+    ----------
+    examples, attempts : one attempt for each example
+    function : the student's function, for what only the code can tell; None where the inputs are hidden
+    allowed : names of the library that it may call, as in `ALLOW` of the unit
+    """
+    answers = [attempt.parts for attempt in attempts]
+    if found := _cannot_be_judged(exercise, examples, attempts):
+        hint = _named(exercise, examples, answers) if all(answers) else None  # of another shape, but known
+        return Verdict("named", hint.text, step=hint.key, example=found.example) if hint else found
+    good = [example.agrees(parts) for example, parts in zip(examples, answers, strict=True)]
+    if all(good):
+        return _right(examples, attempts, allowed)
+    first = good.index(False)
+    if hint := _named(exercise, examples, answers):
+        return Verdict("named", hint.text, step=hint.key, example=first)
+    if found := _not_finite(exercise, examples, answers, function):
+        return found
+    also = _already_and_residual(exercise, examples, answers, good, function)
+    if function and (text := _ignored(exercise, function)):
+        return Verdict("named", text, also, "ignored", first)
+    if text := done_to_the_right_answer(exercise, examples, answers):
+        return Verdict("named", text, step="done", example=first)
+    if function and (edit := _repaired(exercise, function, examples, good, attempts)):
+        return Verdict("named", edit.text, also, "repair", first, edit.phrase)
+    if also:
+        return Verdict("placed", also[0], also[1:], "already", first)
+    return Verdict(
+        "different", f"wrong on {good.count(False)} of {len(good)} examples", (), "different", first
+    )
+
+
+# ---- 1: it cannot be judged
+
+
+def _cannot_be_judged(exercise: Exercise, examples: list[Example], attempts: list[Attempt]) -> Verdict | None:
+    for k, attempt in enumerate(attempts):
+        if attempt.changed and attempt.fault != "unwritten":
+            text = (
+                f"it changes its argument `{attempt.changed}`: whoever called it finds other numbers in it"
+                " afterwards. Work on a copy; `x /= 2` and `x[i] = ...` change the array itself"
+            )
+            return Verdict("misfit", text, step="changed", example=k)
+    for k, attempt in enumerate(attempts):
+        if attempt.fault:
+            text = _only_there(examples, attempts, k) + attempt.text
+            return Verdict(attempt.fault, text, step=attempt.fault, example=k)
+    return None
+
+
+def _only_there(examples: list[Example], attempts: list[Attempt], k: int) -> str:
+    """ "for a slide, " if it happens in one case alone and goes well in others."""
+    bad = {e.case for e, a in zip(examples, attempts, strict=True) if a.fault}
+    well = {e.case for e, a in zip(examples, attempts, strict=True) if not a.fault}
+    case = examples[k].case
+    return f"{case}: " if len(bad) == 1 and well and case not in well else ""
+
+
+def _not_finite(exercise: Exercise, examples, answers, function) -> Verdict | None:
+    bad = [not all(np.isfinite(part).all() for part in parts) for parts in answers]
+    if not any(bad):
+        return None
+    k = bad.index(True)
+    cases = {e.case for e, b in zip(examples, bad, strict=True) if b}
+    where = f"{examples[k].case}: " if len(cases) == 1 and not all(bad) else ""
+    line, what = line_of_nan(function, examples[k].arguments) if function else (0, "")
+    text = f"{where}the answer holds NaN or infinity"
+    if line:
+        text += f"; it comes from line {line} ({what})"
+    return Verdict("misfit", text, step="nan", example=k)
+
+
+# ---- 2 and 3: right, or a mistake with a name
+
+
+def _right(examples: list[Example], attempts: list[Attempt], allowed: tuple[str, ...]) -> Verdict:
+    calls = dict.fromkeys(call for attempt in attempts for call in attempt.calls)
+    forbidden = next((call for call in calls if not permitted(call, allowed)), None)
+    if forbidden:
+        text = f"the numbers are right, but it calls coursekit's own {forbidden}: write that part yourself"
+        return Verdict("library", text, step="library")
+    return Verdict("right", f"right on {len(examples)} examples", step="right")
+
+
+def _named(exercise: Exercise, examples: list[Example], answers: list[Parts]):
+    """A mistake is recognised by all examples at once: on some of them it may happen to be right."""
+    for hint in exercise.hints:
+        if all(
+            hint.key in e.wrong and e.agrees(parts, e.wrong[hint.key])
+            for e, parts in zip(examples, answers, strict=True)
+        ):
+            return hint
+    return None
+
+
+# ---- 4 and 5: with the code
+
+
+def _ignored(exercise: Exercise, function: Callable) -> str:
+    code = getattr(function, "__code__", None)
+    if not isinstance(code, CodeType):
+        return ""
+    for name, wanted in zip(code.co_varnames[: code.co_argcount], exercise.arguments, strict=False):
+        uses = [i.opname for i in dis.get_instructions(code) if name == i.argval or _holds(i.argval, name)]
+        uses = [use for use in uses if not use.startswith(("MAKE_CELL", "COPY_FREE"))]
+        if not uses:
+            return f"it does not use its argument `{wanted}`"
+        if uses[0].startswith("STORE"):
+            return f"it gives `{wanted}` a value of its own before it looks at the one that comes"
+    return ""
+
+
+def _holds(value: object, name: str) -> bool:
+    return isinstance(value, tuple) and name in value
+
+
+def _repaired(exercise: Exercise, function, examples, good, attempts) -> Found | None:
+    wrong_first = sorted(range(len(examples)), key=lambda k: (good[k], attempts[k].cost))
+    return repair(exercise, function, [examples[k] for k in wrong_first], attempts[wrong_first[0]].cost)
+
+
+# ---- 6 and 7: what is right already, and by how much the rest misses
+
+
+def _already_and_residual(exercise, examples, answers, good, function) -> tuple[str, ...]:
+    told = [what_is_right(exercise, examples, answers, good)]
+    if function is not None:
+        told += [_residual(exercise, examples, answers, good)]
+    told += [_law(exercise, examples, answers, good, function)]
+    return tuple(text for text in told if text)
+
+
+def _residual(exercise: Exercise, examples, answers, good) -> str:
+    if exercise.residual is None:
+        return ""
+    for example, parts, fine in zip(examples, answers, good, strict=True):
+        if not fine:
+            try:
+                with np.errstate(all="ignore"):
+                    text = exercise.residual(
+                        thaw(example.arguments),
+                        exercise.value(list(parts)),
+                        exercise.value(list(example.right)),
+                    )
+            except (ValueError, IndexError, ArithmeticError, np.linalg.LinAlgError):
+                continue
+            if text:
+                return text
+    return ""
+
+
+def _law(exercise: Exercise, examples, answers, good, function) -> str:
+    for example, parts, fine in zip(examples, answers, good, strict=True):
+        if not fine and (text := broken_law(example, parts, function)):
+            return text
+    return ""
+
+
+def broken_law(example: Example, parts: Parts, function: Callable | None = None) -> str:
+    """'' or the text of the first law that does not hold."""
+    exercise = example.exercise
+    if misshapen(exercise, list(parts)):
+        return ""
+    with np.errstate(all="ignore"):
+        for kind, part in zip(exercise.kinds, parts, strict=True):
+            if kind == "rotation" and (text := not_a_pose(part)):
+                return text
+        for text, law in exercise.laws:
+            try:
+                holds = law(function, thaw(example.arguments), exercise.value(list(parts)))
+            except Exception:
+                holds = function is None and exercise.compare != "any_solution"
+            if not holds:
+                return text
+    return ""
