@@ -1,4 +1,4 @@
-"""The proof that `check` meets the student: wrong answers are never accepted and nearly always named or placed.
+"""The proof that `check` meets the student: no wrong answer is accepted, nearly all are named or placed.
 
 `wrong/played.json` holds 306 wrong answers written while the released notebooks were played as a student
 would, without a look at the rest; the other files hold those that their authors thought of while they wrote
