@@ -18,7 +18,7 @@ def offer(png: bytes, levels: dict[str, Callable[[], str]]) -> None:
     from IPython.display import Image, display
 
     if png:
-        display(Image(png, width=340, alt="the right answer, solid, and yours, translucent"))
+        display(Image(png, alt="the right answer, solid, and yours, translucent"))
     with contextlib.suppress(ImportError):  # where there are no widgets, the text says what to call
         display(_buttons(levels))
 

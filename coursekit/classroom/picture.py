@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from mpl_toolkits.mplot3d import Axes3D
 
 YOURS = "accent"  # the one colour of what a student wrote, here as in the explorers
-SIZE = (3.4, 2.9)  # inches
+SIZE = (3.6, 3.2)  # inches
+MARGIN = 8  # pixels
 FAR = 8.0  # times the size of the right picture: what is farther away is not drawn
 
 
@@ -55,7 +56,7 @@ def _drawn(right: dict, mine: dict) -> bytes:
     ax.set_axis_off()
     for letter, centre in zip("xyz", middle, strict=True):
         ax.set(**{f"{letter}lim": (centre - half, centre + half)})
-    ax.set_box_aspect((1, 1, 1), zoom=1.35)
+    ax.set_box_aspect((1, 1, 1), zoom=1.45)
     _triad(ax, np.eye(4), 0.3 * half, ["#9AA3AF"] * 3, 1.0, "{s}")
     _draw(ax, right, half, INK, [palette(letter) for letter in "xyz"], 1.0)
     ours, theirs = Line2D([], [], color=INK, lw=2), Line2D([], [], color=palette(YOURS), lw=2, alpha=0.6)
@@ -67,8 +68,21 @@ def _drawn(right: dict, mine: dict) -> bytes:
     else:
         words[1] = "yours: far outside"
     figure.legend([ours, theirs], words, loc="outside lower center", fontsize=8, frameon=False, ncols=2)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    return _cropped(np.asarray(canvas.buffer_rgba())[..., :3])
+
+
+def _cropped(pixels: np.ndarray) -> bytes:
+    """Without the empty paper round it."""
+    from PIL import Image
+
+    inked = (pixels < 250).any(axis=-1)
+    rows, columns = (np.flatnonzero(inked.any(axis=k)) for k in (1, 0))
+    top, bottom = max(rows[0] - MARGIN, 0), rows[-1] + MARGIN
+    left, right = max(columns[0] - MARGIN, 0), columns[-1] + MARGIN
     file = io.BytesIO()
-    FigureCanvasAgg(figure).print_png(file)
+    Image.fromarray(pixels[top:bottom, left:right]).save(file, "PNG")
     return file.getvalue()
 
 
