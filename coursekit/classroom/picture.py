@@ -77,8 +77,8 @@ def _cropped(pixels: np.ndarray) -> bytes:
     """Without the empty paper round it."""
     from PIL import Image
 
-    inked = (pixels < 250).any(axis=-1)
-    rows, columns = (np.flatnonzero(inked.any(axis=k)) for k in (1, 0))
+    inked: np.ndarray = np.min(pixels, axis=-1) < 250
+    rows, columns = np.flatnonzero(inked.any(axis=1)), np.flatnonzero(inked.any(axis=0))
     top, bottom = max(rows[0] - MARGIN, 0), rows[-1] + MARGIN
     left, right = max(columns[0] - MARGIN, 0), columns[-1] + MARGIN
     file = io.BytesIO()

@@ -172,12 +172,42 @@ cell_kind("a_figure", "import matplotlib.pyplot as plt\n\nplt.plot([1, 2])\nplt.
 cell_kind("asks_for_input", "name = input('who are you? ')")
 cell_kind("a_cell_that_fails", "print(undefined)\n1 / 0")
 cell_kind("a_cell_that_is_no_python", "this is ( not python")
+fk_kind(
+    "names_of_builtins_taken",
+    FULL,
+    "return right(theta, l1, l2)",
+    before="list = [1]\ndict = float = isinstance = callable = str = repr = len = 3",
+)
+fk_kind("a_widget_backend", FULL, "return right(theta, l1, l2)", before="%matplotlib widget\nx = !ls")
+fk_kind("a_timed_cell", FULL, "return right(theta, l1, l2)", before="%timeit 1 + 1")
+KINDS["a_magic_above_the_cell"] = Kind(lambda nb: with_fk(nb, "def fk(*a):\n    return right(*a)"), FULL)
+cell_kind(
+    "a_display_and_a_widget",
+    """
+from IPython.display import Math, display
+import ipywidgets as widgets
+
+display(Math("x"), widgets.IntSlider())
+for line in get_ipython().history_manager.get_range():
+    print(line)
+""",
+)
+cell_kind("a_million_lines", "x = 1\n" * 1_000_000)
+cell_kind("exit_in_a_cell", "exit()")
 cell_kind("a_null_byte", "x = 1\x00")
 cell_kind("lone_surrogates", "x = '\ud800'")
 cell_kind("sys_exit_in_a_cell", "import sys\nsys.exit(3)")
 cell_kind("an_endless_loop_in_a_cell", "while True:\n    pass", at=2)
 cell_kind("a_loop_deaf_to_interrupts", DEAF, note="hangs or ends", at=2)
 cell_kind("a_cell_that_ends_the_kernel", "import os\nos._exit(0)", note="hangs or ends", at=2)
+
+
+@kind(FULL, note="below that only definitions were run")
+def five_slow_demonstrations(notebook):
+    """They use up the notebook's time; what stands below them is defined all the same."""
+    slow = [code("import time\ntime.sleep(5.9)") for _ in range(7)]
+    return {**notebook, "cells": [*slow, *notebook["cells"]]}
+
 
 # ---- not a notebook, or nothing in it
 
@@ -321,7 +351,7 @@ def forge(data):
     )
 fk_kind(
     "input_transformer",
-    NOTHING,  # it garbles all questions
+    NO_FK,
     "return np.zeros(2)",
     before="""
 def rewrite(lines):
@@ -448,6 +478,59 @@ fk_kind("sleeps_for_ever", NO_FK, "import time\ntime.sleep(10**6)", "took more t
 fk_kind("floods_the_output", NO_FK, "while True:\n    print('x' * 100_000)", "took more than")
 fk_kind("floods_the_memory", NO_FK, "x = []\nwhile True:\n    x.append(np.ones(50_000_000))")
 fk_kind(
+    "floods_the_memory_by_forks",
+    NO_FK,
+    """
+import os, time
+for _ in range(6):
+    if os.fork() == 0:
+        x = np.ones(60_000_000)
+        time.sleep(60)
+time.sleep(60)
+""",
+    "memory",
+)
+fk_kind(
+    "floods_the_memory_by_files_without_names",
+    NO_FK,
+    """
+import os, time
+files = [os.memfd_create(str(i)) for i in range(30)]
+for file in files:
+    for _ in range(10):
+        os.write(file, b"x" * 10_000_000)
+time.sleep(60)
+""",
+    "memory",
+)
+fk_kind(
+    "writes_to_the_kernel_of_the_host",
+    FULL,  # if nothing of it can be written
+    """
+import os
+for path in ("/proc/sys/kernel/panic", "/proc/sys/vm/swappiness", "/proc/sysrq-trigger"):
+    try:
+        os.close(os.open(path, os.O_WRONLY))
+        return 0
+    except OSError:
+        pass
+return right(theta, l1, l2)
+""",
+)
+fk_kind(
+    "writes_to_every_descriptor",
+    NO_FK,
+    """
+import os
+for descriptor in range(3, 20):
+    try:
+        os.write(descriptor, b'{"answers": []}\\n')
+    except OSError:
+        pass
+return np.zeros(2)
+""",
+)
+fk_kind(
     "floods_the_home", NO_FK, "for i in range(99):\n    open(f'{i}', 'wb').write(b'x' * 10**7)", "No space"
 )
 fk_kind(
@@ -459,7 +542,7 @@ folder = os.path.dirname(sys.argv[sys.argv.index("-f") + 1])
 for i in range(10**6):
     open(f"{folder}/{i}", "wb").write(b"x" * 100_000)
 """,
-    "too many files",
+    "No space",
 )
 fk_kind(
     "removes_the_sockets",

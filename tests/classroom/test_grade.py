@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import concurrent.futures as futures
 import csv
 import json
@@ -19,8 +18,9 @@ import pytest
 
 from coursekit.classroom.author import notebook
 from coursekit.classroom.course import Course
-from coursekit.classroom.grader import box, grade, reply
+from coursekit.classroom.grader import box, grade
 from coursekit.classroom.grader.box import bubblewrap
+from coursekit.classroom.grader.worker import RUNNER
 from tests.classroom.small import COURSE, HERE, NAME, ROOT, grade_small, hand_in, points, records
 
 needs_box = pytest.mark.skipif(
@@ -86,15 +86,15 @@ def test_in_the_box_a_course_below_tmp_is_seen(tmp_path, monkeypatch):
     visible = box._visible()
     monkeypatch.setattr(box, "_visible", lambda: [*visible, str(tmp_path / "python")])
 
-    async def read():
-        kernel = box.Box(tmp_path / "library", box.Limits(), bubblewrap())
-        try:
-            await kernel.start()
-            return await kernel.run("", 20, f"open({str(tmp_path / 'python')!r}).read()")
-        finally:
-            await kernel.stop()
-
-    assert reply.expression(asyncio.run(read())) == "'is here'"
+    (tmp_path / "library" / "runner.py").write_text(RUNNER.read_text())
+    one = box.Box(tmp_path / "library", box.Limits(), bubblewrap())
+    try:
+        cell = f"def said():\n    return len(open({str(tmp_path / 'python')!r}).read())"
+        assert "error" not in one.ask({"run": cell, "name": "<cell>"}, 20)
+        found = one.ask({"ask": "said", "calls": [[]], "several": 0, "arguments": []}, 20)
+    finally:
+        one.close()
+    assert found["answers"][0]["parts"] == [{"shape": [], "values": ["7.0"]}]
 
 
 @needs_box

@@ -1,52 +1,48 @@
-"""The box: a Jupyter kernel that sees neither network, course, classmates nor the grader's files.
+"""The box: one Python process that sees neither network, course, classmates nor the grader's files.
 
-Bubblewrap gives it its own processes, network and file system: Python read-only, a small home in memory. The
-kernel is reached over unix sockets in one folder, the only thing it shares with the outside.
+Bubblewrap gives it its own processes, network and file system: Python read-only, a small home in memory, and
+nothing of the host that can be written. It is talked to over two pipes, in JSON lines; `runner` answers.
 """
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
+import json
 import os
-import queue
+import secrets
+import select
 import shutil
 import signal
 import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-import zmq
-import zmq.asyncio
-from jupyter_client.asynchronous import AsyncKernelClient
-from jupyter_client.kernelspec import KernelSpec
-from jupyter_client.manager import AsyncKernelManager
-
 from ..course import PACKAGE
 
-SHARED = 1_000_000  # bytes that the folder of the sockets may hold
+GRACE = 2.0  # seconds for the box to say itself that its time is over
+LOOK = 0.2  # seconds between two looks at what the box uses
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What a submission may use: bytes, seconds, numbers of processes."""
+    """What a submission may use: bytes (of all its processes together), seconds, numbers of processes."""
 
     memory: int = 3 << 30
     home: int = 200_000_000
     message: int = 4_000_000
     processes: int = 200
     cpu: int = 150
-    start: float = 40.0
     cell: float = 20.0
     notebook: float = 90.0
     submission: float = 240.0
 
 
-class KernelLost(Exception):
-    """The kernel died, hung, or had to be killed."""
+class BoxLost(Exception):
+    """What runs in the box died, hung, or had to be killed."""
 
 
 def bubblewrap() -> str | None:
@@ -59,120 +55,150 @@ def bubblewrap() -> str | None:
 
 
 class Box:
-    """One kernel. `await start()`, `await run(...)`, `await stop()`, and nothing of it remains."""
+    """One Python in its box: `ask(request, seconds)` as often as you like, then `close()`."""
 
     def __init__(self, library: Path, limits: Limits, program: str | None) -> None:
         self.limits = limits
-        self.folder = tempfile.mkdtemp(prefix="box")
-        self.manager = AsyncKernelManager(transport="ipc", connection_file=f"{self.folder}/kernel.json")
-        self.manager.ip = f"{self.folder}/s"  # the names of the sockets begin with it
-        self.manager._kernel_spec = KernelSpec(
-            argv=_command(self.folder, Path(library), limits, program),
-            display_name="student",
-            language="python",
-            interrupt_mode="message",
+        self._home = None if program else tempfile.mkdtemp(prefix="home")
+        self._process = subprocess.Popen(
+            _command(library, limits, program, self._home or "/tmp/home"),
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,  # what is printed below Python's level goes nowhere
+            env={"PATH": os.environ.get("PATH", os.defpath)},
+            cwd=self._home or "/",
+            start_new_session=True,
         )
-        self.client: AsyncKernelClient | None = None
+        self._read = b""
+        for pipe in (self._process.stdin, self._process.stdout):
+            os.set_blocking(pipe.fileno(), False)  # type: ignore[union-attr]
 
-    async def start(self) -> None:
-        environment = {"PATH": os.environ.get("PATH", os.defpath), "HOME": self.folder}
-        quiet = subprocess.DEVNULL  # what is printed below Python's level goes nowhere
-        await self.manager.start_kernel(env=environment, cwd=self.folder, stdout=quiet, stderr=quiet)
-        # A message above the limit cuts the sender off. Printed output is never subscribed to: no flood of it
-        # can reach this process, replies come over the shell channel.
-        context = zmq.asyncio.Context()
-        context.sockopts[zmq.MAXMSGSIZE] = self.limits.message
-        context.sockopts[zmq.LINGER] = 0
-        self.client = AsyncKernelClient(**self.manager.get_connection_info(session=True), context=context)
-        self.client.start_channels(iopub=False, stdin=False, hb=False)
-        await self._reply(self.client, self.client.kernel_info(), self.limits.start)
+    def ask(self, request: dict, seconds: float) -> dict:
+        """The reply to a request, untrusted: {"late": True} if it says itself that its time was over.
 
-    async def run(self, code: str, seconds: float, expression: str = "None") -> dict:
-        """Execute code, then evaluate an expression; the content of the reply. Whatever it says is untrusted.
-
-        Code that takes too long is interrupted ("interrupted" is then True); KernelLost if it goes on.
+        BoxLost if there is none in time.
         """
-        client = self.client
-        if client is None:
-            raise KernelLost("the kernel was not started")
-        request = client.execute(code, allow_stdin=False, user_expressions={"value": expression})
-        try:
-            return await self._reply(client, request, seconds)
-        except TimeoutError:
-            await self.manager.interrupt_kernel()
-        try:
-            return {**await self._reply(client, request, 2), "interrupted": True}
-        except TimeoutError:
-            raise KernelLost(f"took more than {seconds:g} s") from None
+        end = time.monotonic() + seconds + GRACE
+        nonce = secrets.token_hex(8)
+        self._send(json.dumps({**request, "seconds": seconds, "nonce": nonce}).encode() + b"\n", end)
+        while True:  # a line without the nonce was written by the student's code, and is no reply
+            with contextlib.suppress(ValueError, RecursionError):
+                reply = json.loads(self._line(end, seconds))
+                if isinstance(reply, dict) and reply.get("nonce") == nonce:
+                    return reply
 
-    async def _reply(self, client: AsyncKernelClient, request: str, seconds: float) -> dict:
-        end = time.monotonic() + seconds
-        while (left := end - time.monotonic()) > 0:
-            try:
-                message = await client.get_shell_msg(timeout=min(left, 0.3))
-            except queue.Empty:
-                if not await self.manager.is_alive():
-                    raise KernelLost("the kernel died") from None
-                if self._flooded():
-                    raise KernelLost("the kernel wrote too many files") from None
-                continue
-            except Exception:  # not a message of the protocol
-                raise KernelLost("the kernel sent something malformed") from None
-            if message["parent_header"].get("msg_id") == request:
-                return message["content"]
-        raise TimeoutError
-
-    def _flooded(self) -> bool:
-        try:
-            sizes = [entry.stat(follow_symlinks=False).st_size for entry in os.scandir(self.folder)]
-        except OSError:
-            return True
-        return len(sizes) > 50 or sum(sizes) > SHARED
-
-    async def stop(self) -> None:
-        if self.client is not None:
-            self.client.stop_channels()
-            self.client.context.destroy(linger=0)
-        process = getattr(self.manager.provisioner, "process", None)
-        if process is not None:
+    def close(self) -> None:
+        """End it, and all that it started."""
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(self._process.pid, signal.SIGKILL)
+        for pid in _family(self._process.pid):  # without bubblewrap nothing else ends them
             with contextlib.suppress(ProcessLookupError, PermissionError):
-                os.killpg(process.pid, signal.SIGKILL)
-            with contextlib.suppress(Exception):  # it is dead, and its folder goes next
-                await asyncio.wait_for(self.manager.shutdown_kernel(now=True), 5)
-        subprocess.run(["rm", "-rf", self.folder], capture_output=True)  # at any depth, whatever is in it
+                os.kill(pid, signal.SIGKILL)
+        self._process.wait()
+        for pipe in (self._process.stdin, self._process.stdout):
+            with contextlib.suppress(OSError):
+                pipe.close()  # type: ignore[union-attr]
+        if self._home:
+            shutil.rmtree(self._home, ignore_errors=True)
+
+    def _send(self, data: bytes, end: float) -> None:
+        pipe = self._process.stdin.fileno()  # type: ignore[union-attr]
+        while data:
+            _, ready, _ = select.select([], [pipe], [], max(0, min(LOOK, end - time.monotonic())))
+            try:
+                data = data[os.write(pipe, data) :] if ready else data
+            except OSError:
+                raise BoxLost("the kernel died") from None
+            if data and time.monotonic() > end:
+                raise BoxLost("the box does not listen")
+
+    def _line(self, end: float, seconds: float) -> bytes:
+        pipe = self._process.stdout.fileno()  # type: ignore[union-attr]
+        while b"\n" not in self._read:
+            left = end - time.monotonic()
+            if left < 0:
+                raise BoxLost(f"took more than {seconds:g} s")
+            ready, _, _ = select.select([pipe], [], [], min(left, LOOK))
+            if ready:
+                part = os.read(pipe, 1 << 16)
+                if not part:
+                    raise BoxLost("the kernel died")
+                self._read += part
+                if len(self._read) > self.limits.message:
+                    raise BoxLost("the reply is too long")
+            elif used(self._process.pid) > self.limits.memory:
+                raise BoxLost(f"used more than {self.limits.memory >> 20} MB of memory")
+        line, _, self._read = self._read.partition(b"\n")
+        return line
 
 
-def _command(folder: str, library: Path, limits: Limits, program: str | None) -> list[str]:
-    home = "/tmp/home" if program else f"{folder}/home"
+# ---- what the box uses
+
+
+def used(root: int) -> int:
+    """Bytes of memory of a process and all that descend from it, files in memory without a name included."""
+    total, seen = 0, set()
+    for pid in _family(root):
+        with contextlib.suppress(OSError, ValueError, IndexError):
+            total += int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+        with contextlib.suppress(OSError):
+            for entry in os.scandir(f"/proc/{pid}/fd"):
+                with contextlib.suppress(OSError):
+                    if os.readlink(entry.path).startswith("/memfd:"):
+                        file = os.stat(entry.path)
+                        total += 0 if file.st_ino in seen else 512 * file.st_blocks
+                        seen.add(file.st_ino)
+    return total
+
+
+def _family(root: int) -> list[int]:
+    """A process and its descendants, whatever they call themselves."""
+    children: dict[int, list[int]] = {}
+    for pid, parent in _parents():
+        children.setdefault(parent, []).append(pid)
+    family, waiting = [], [root]
+    while waiting:
+        pid = waiting.pop()
+        family.append(pid)
+        waiting += children.get(pid, ())
+    return family
+
+
+def _parents() -> Iterator[tuple[int, int]]:
+    with contextlib.suppress(OSError):
+        for name in os.listdir("/proc"):
+            if name.isdigit():
+                with contextlib.suppress(OSError, ValueError, IndexError):
+                    stat = Path(f"/proc/{name}/stat").read_bytes()
+                    yield int(name), int(stat.rpartition(b")")[2].split()[1])
+
+
+# ---- the command
+
+
+def _command(library: Path, limits: Limits, program: str | None, home: str) -> list[str]:
     environment = {
         "HOME": home,
         "PATH": f"{Path(sys.executable).parent}:/usr/bin:/bin",
-        "PYTHONPATH": str(library),
         "PYTHONDONTWRITEBYTECODE": "1",
-        "IPYTHONDIR": f"{home}/.ipython",
         "MPLCONFIGDIR": f"{home}/.matplotlib",
         "MPLBACKEND": "agg",
         "LANG": "C.UTF-8",
         "OMP_NUM_THREADS": "1",
         "OPENBLAS_NUM_THREADS": "1",
-        "PYDEVD_DISABLE_FILE_VALIDATION": "1",
     }
-    kernel = [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"]
-    kernel += ["--HistoryManager.enabled=False", "--InteractiveShell.xmode=Minimal"]
+    runner = library / "runner.py"
+    python = [sys.executable, "-s", "-B", str(runner), str(library)]
     if shutil.which("prlimit"):
-        asked = {
-            "as": limits.memory,
-            "fsize": limits.home,
-            "cpu": limits.cpu,
-            "nproc": limits.processes,
-            "core": 0,
-        }
-        kernel = ["prlimit", *(f"--{name}={value}" for name, value in asked.items()), *kernel]
+        asked = {"as": limits.memory, "fsize": limits.home, "cpu": limits.cpu, "nproc": limits.processes}
+        python = ["prlimit", *(f"--{name}={value}" for name, value in {**asked, "core": 0}.items()), *python]
     if program is None:
-        Path(home).mkdir()
-        return ["env", "-i", *(f"{name}={value}" for name, value in environment.items()), *kernel]
+        return ["env", "-i", *(f"{name}={value}" for name, value in environment.items()), *python]
     box = [program, "--unshare-all", "--die-with-parent", "--new-session", "--cap-drop", "ALL"]
     box += ["--hostname", "box", "--clearenv", "--proc", "/proc", "--dev", "/dev"]
+    for path in _OF_THE_HOST:  # a root's box could otherwise write there: it has the host's user number
+        if os.path.exists(path):
+            box += ["--ro-bind", path, path]
     # first, because the course itself may lie in /tmp
     box += ["--size", str(limits.home), "--tmpfs", "/tmp", "--size", str(limits.home), "--tmpfs", "/dev/shm"]
     for path in _visible():
@@ -181,10 +207,13 @@ def _command(folder: str, library: Path, limits: Limits, program: str | None) ->
         box += ["--tmpfs", str(PACKAGE)]
     for name, value in environment.items():
         box += ["--setenv", name, value]
-    for fonts in _font_lists():  # finding all fonts anew would cost every kernel seconds
+    for fonts in _font_lists():  # finding all fonts anew would cost every box seconds
         box += ["--ro-bind", str(fonts), f"{home}/.matplotlib/{fonts.name}"]
-    box += ["--ro-bind", str(library), str(library), "--bind", folder, folder, "--dir", home, "--chdir", home]
-    return [*box, "--remount-ro", "/", "--remount-ro", "/dev", *kernel]
+    box += ["--ro-bind", str(library), str(library), "--dir", home, "--chdir", home]
+    return [*box, "--remount-ro", "/", "--remount-ro", "/dev", *python]
+
+
+_OF_THE_HOST = ("/proc/sys", "/proc/sysrq-trigger", "/proc/irq", "/proc/bus", "/proc/fs", "/proc/acpi")
 
 
 def _visible() -> list[str]:

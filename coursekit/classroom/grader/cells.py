@@ -7,12 +7,8 @@ import json
 import re
 
 LARGEST = 20_000_000  # bytes of a notebook
-
-# Evaluated in the kernel after an error: the line of the cell where it happened.
-FAILED_LINE = (
-    "next((line for frame, line in __import__('traceback').walk_tb(__import__('sys').last_traceback)"
-    " if frame.f_code.co_name.startswith('<') and 'ipykernel_' in frame.f_code.co_filename), 0)"
-)
+LONGEST = 200_000  # characters of a cell: more takes Python's own reader minutes
+_RUNS_ITS_BODY = ("time", "timeit", "capture", "prun")  # of the magics that stand above a whole cell
 
 
 def sources(data: bytes) -> list[str]:
@@ -25,13 +21,39 @@ def sources(data: bytes) -> list[str]:
         code = [_text(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
     except (ValueError, KeyError, TypeError, RecursionError, AttributeError) as error:
         raise ValueError(f"not a readable notebook ({type(error).__name__})") from None
-    return [text for text in code if text.strip()]
+    return [plain_python(text) for text in code if text.strip()]
 
 
 def _text(source) -> str:
     text = source if isinstance(source, str) else "".join(source)
     text = text.replace("\r\n", "\n").encode("utf-8", "replace").decode("utf-8")  # no lone surrogates
     return re.sub(r"\A(\s*\n)+", "", text)
+
+
+def plain_python(text: str) -> str:
+    """A cell as Python: magics, questions and shell lines become calls of `get_ipython()`, line by line."""
+    if len(text) > LONGEST:
+        return ""
+    first, _, body = text.partition("\n")
+    if first.startswith("%%"):  # a magic for the whole cell
+        name = first[2:].split(" ")[0].strip()
+        return plain_python(f"#\n{body}") if name in _RUNS_ITS_BODY else ""
+    if _parses(text):
+        return text
+    from IPython.core.inputtransformer2 import TransformerManager  # text to text: nothing is run
+
+    try:
+        return TransformerManager().transform_cell(text)
+    except Exception:  # no Python, and no IPython either: the box will say so
+        return text
+
+
+def _parses(text: str) -> bool:
+    try:
+        ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return False
+    return True
 
 
 def definitions(source: str, after: int) -> str:
@@ -44,7 +66,7 @@ def definitions(source: str, after: int) -> str:
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return ""
     lines = source.split("\n")
-    kept = ["#"] * len(lines)  # not empty: IPython drops empty lines at the top, and line numbers shift
+    kept = [""] * len(lines)
     wanted = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Import, ast.ImportFrom, ast.Assign)
     for node in statements:
         decorators = getattr(node, "decorator_list", [])

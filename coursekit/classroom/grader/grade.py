@@ -1,7 +1,7 @@
 """Grade a class: SUBMISSIONS/<student>/<notebook>.ipynb to grades.csv, a page for every student, a journal.
 
 The grader itself runs no student code and reads nothing of theirs but bytes. Each submission is a job of
-plain data for a process of its own; the jobs go through any `concurrent.futures.Executor`. Before the first
+plain data for a worker; the jobs go through any `concurrent.futures.Executor`. Before the first
 of them, solved notebooks must get full marks and untouched ones none: a fault of the set-up is never a grade.
 """
 
@@ -11,10 +11,6 @@ import base64
 import concurrent.futures as futures
 import contextlib
 import json
-import os
-import signal
-import subprocess
-import sys
 import tempfile
 import time
 from collections.abc import Iterator
@@ -23,7 +19,7 @@ from pathlib import Path
 
 from ..author import notebook
 from ..course import Course, the_course
-from . import report, worker
+from . import pool, report, worker
 from .box import Limits, bubblewrap
 from .journal import Journal
 from .submissions import Submissions, digest
@@ -68,6 +64,7 @@ def grade_class(
     make = Jobs(course, units, seed=seed, box=box, limits=limits or Limits())
     out.mkdir(parents=True, exist_ok=True)
     with contextlib.ExitStack() as stack:
+        stack.callback(pool.close)
         if executor is None:
             executor = stack.enter_context(futures.ThreadPoolExecutor(jobs))
         journal = Journal(out / "journal.jsonl", {"seed": seed, "box": box})
@@ -166,29 +163,10 @@ def _failed(job: dict, why: str) -> dict:
 
 def _worker(job: dict) -> tuple[dict | None, str]:
     """(what the worker found, '') or (None, what befell the worker)."""
-    seconds = job["limits"]["submission"] + SPARE
-    with tempfile.TemporaryFile() as errors:  # no pipe: whoever inherits it could keep us waiting
-        process = subprocess.Popen(
-            [sys.executable, "-m", "coursekit.classroom.grader.worker"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=errors,
-            start_new_session=True,
-            env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"},
-        )
-        try:
-            output, _ = process.communicate(json.dumps(job).encode(), timeout=seconds)
-            return json.loads(output), ""
-        except subprocess.TimeoutExpired:
-            return None, f"no result within {seconds:g} s"
-        except (ValueError, OSError):
-            errors.seek(0)
-            lines = errors.read()[-2000:].decode(errors="replace").strip().splitlines()
-            return None, f"exit code {process.wait()}: {lines[-1] if lines else ''}"
-        finally:
-            with contextlib.suppress(ProcessLookupError, PermissionError):
-                os.killpg(process.pid, signal.SIGKILL)
-            process.wait()
+    try:
+        return pool.grade(job, job["limits"]["submission"] + SPARE), ""
+    except pool.WorkerLost as lost:
+        return None, str(lost)
 
 
 # ---- all of them

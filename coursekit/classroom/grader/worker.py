@@ -1,21 +1,21 @@
-"""Grades ONE submission, in a process of its own: a job comes as JSON on stdin, its result leaves on stdout.
+"""Grades submissions, one after the other: jobs come as JSON lines on stdin, results leave on stdout.
 
-The student's notebook runs in a boxed kernel; here are the hidden inputs, the solutions and the comparison.
-The kernel's replies are JSON numbers, read defensively: nothing of them is unpickled, evaluated or believed.
-To forge an answer one has to know it.
+The student's notebook runs in a box; here are the hidden inputs, the solutions and the comparison. What the
+box replies is JSON, read defensively: nothing of it is evaluated or believed. To forge an answer one has to
+know it. No code of a student's runs in this process, so that it can stay for a whole class.
 """
 
 from __future__ import annotations
 
-import asyncio
 import base64
 import contextlib
 import json
 import os
-import shutil
-import sys
 import tempfile
+import threading
+import time
 import zlib
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -26,56 +26,88 @@ from ..course import Course, the_course
 from ..exercise import Exercise
 from ..verdict import Example, Verdict, verdict
 from . import cells
-from .box import KernelLost, Limits, bubblewrap
+from .box import BoxLost, Limits, bubblewrap
 from .locked import locked_files, write_files
 from .student import Student
 
+RUNNER = Path(__file__).with_name("runner.py")
+
 
 def main() -> None:
-    """Read the job, grade it, write the result."""
-    job = json.load(sys.stdin)
-    result = os.dup(1)
-    os.dup2(2, 1)  # whatever else is printed here must not look like the result
+    """Grade every job that comes, until there are no more."""
+    jobs, results = os.fdopen(os.dup(0), "rb"), os.dup(1)
+    os.dup2(2, 1)  # whatever else is printed here must not look like a result
     with contextlib.suppress(ImportError, ValueError):  # Windows has none; a lower limit may be set already
         import resource
 
         resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
-    text = json.dumps(asyncio.run(grade(job)))
-    os.write(result, text.encode())
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+    with tempfile.TemporaryDirectory(prefix="library") as folder:
+        libraries = _Libraries(Path(folder))
+        for line in jobs:
+            data = json.dumps(grade(json.loads(line), libraries)).encode() + b"\n"
+            while data:
+                data = data[os.write(results, data) :]
 
 
-async def grade(job: dict) -> dict:
+class _Libraries:
+    """Locked copies of the library, written once each."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder, self._known = folder, dict[str, Path]()
+
+    def of(self, files: dict[str, str]) -> Path:
+        key = f"{zlib.crc32(json.dumps(files, sort_keys=True).encode()):08x}"
+        if key not in self._known:
+            self._known[key] = self._folder / key
+            write_files({**files, "runner.py": RUNNER.read_text("utf-8")}, self._known[key])
+        return self._known[key]
+
+
+def grade(job: dict, libraries: _Libraries) -> dict:
     """The result of a job: points and a text for every exercise of the unit."""
     course = Course(*map(Path, job["course"])) if job["course"] else the_course()
     limits = Limits(**job["limits"])
     exercises = course.exercises(job["unit"])
-    questions = {e.name: hidden_examples(course, e, job["seed"], job["unit"]) for e in exercises}
     result = {e.name: {"points": 0, "of": e.points, "text": ""} for e in exercises}
     try:
         sources = cells.sources(base64.b64decode(job["notebook"]))
     except ValueError as error:
         unreadable = {name: {**row, "text": str(error)} for name, row in result.items()}
         return {"exercises": unreadable, "notes": [str(error)]}
-
-    folder = Path(tempfile.mkdtemp(prefix="library"))
-    watch = asyncio.create_task(_end_with_parent())
-    student = Student(sources, folder, limits, bubblewrap() if job["box"] else None, len(exercises))
+    before = time.process_time(), _of_children()
+    library = libraries.of(job["library"])
+    student = Student(sources, library, limits, bubblewrap() if job["box"] else None, len(exercises))
     try:
-        write_files(job["library"], folder)
         for exercise in exercises:
-            row, examples = result[exercise.name], questions[exercise.name]
+            row, examples = result[exercise.name], _examples(course, exercise, job["seed"], job["unit"])
             try:
-                attempts = await student.ask(exercise, [example.arguments for example in examples])
-            except (KernelLost, ValueError) as error:
+                attempts = student.ask(exercise, [example.arguments for example in examples])
+            except (BoxLost, ValueError) as error:
                 row["text"] = f"no answer: {error}"
                 continue
             found = verdict(exercise, examples, attempts)
             row["text"], row["points"] = _told(found), exercise.points if found.right else 0
     finally:
-        watch.cancel()
-        await student.stop()
-        shutil.rmtree(folder, ignore_errors=True)
-    return {"exercises": result, "notes": student.notes, "kernels": student.starts}
+        student.close()
+    cpu = time.process_time() - before[0] + _of_children() - before[1]
+    return {"exercises": result, "notes": student.notes, "boxes": student.starts, "cpu": round(cpu, 2)}
+
+
+def _of_children() -> float:
+    """CPU seconds of all boxes that have ended."""
+    times = os.times()
+    return times.children_user + times.children_system
+
+
+@cache
+def _known(course: Course, unit: str, name: str, seed: int) -> list[Example]:
+    exercise = next(e for e in course.exercises(unit) if e.name == name)
+    return hidden_examples(course, exercise, seed, unit)
+
+
+def _examples(course: Course, exercise: Exercise, seed: int, unit: str) -> list[Example]:
+    return _known(course, unit, exercise.name, seed)
 
 
 def _told(found: Verdict) -> str:
@@ -109,11 +141,11 @@ def library(course: Course, unit: str, seed: int) -> dict[str, str]:
     return locked_files((*course.allowed(unit), *needed))
 
 
-async def _end_with_parent() -> None:
-    """If the grader is killed, its workers go too; bubblewrap takes the kernel along."""
+def _end_with_parent() -> None:
+    """If the grader is killed, its workers go too; bubblewrap takes what is in the box along."""
     parent = os.getppid()
     while os.getppid() == parent:
-        await asyncio.sleep(0.5)
+        time.sleep(0.5)
     os._exit(1)
 
 

@@ -1,0 +1,174 @@
+"""Runs inside the box, and nowhere else: a student's cells, and the questions to their functions.
+
+It is a script of its own that imports nothing of coursekit. Requests come as JSON lines on stdin, one reply
+goes back for each. Whatever happens in here, the grader believes none of it: replies are read field by field,
+and an answer is right only if its numbers are. Students' code runs in names of its own, with small stand-ins
+for what only a notebook has; what it prints goes nowhere.
+"""
+
+import builtins
+import copy
+import json
+import linecache
+import os
+import signal
+import sys
+import traceback
+import types
+
+LARGEST = 2000  # numbers in one answer
+
+
+class Nothing:
+    """Takes every call and every name, and does nothing: what `get_ipython()` gives, or a widget."""
+
+    def __call__(self, *args, **kwargs):
+        return Nothing()
+
+    def __getattr__(self, name):
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return Nothing()
+
+    def __iter__(self):
+        return iter(())
+
+    def __len__(self):
+        return 0
+
+    def __str__(self):
+        return ""
+
+
+def stand_in(name: str) -> None:
+    """A module of which every name is Nothing."""
+    module = types.ModuleType(name)
+    nothing = Nothing()
+    answer = lambda key: None if key == "get_ipython" else getattr(nothing, key)  # noqa: E731
+    module.__dict__.update(__path__=[], __getattr__=answer)
+    sys.modules[name] = module
+
+
+class Late(BaseException):
+    """The time for this request is over."""
+
+
+def ring(*_):
+    raise Late
+
+
+def run(request: dict, space: dict) -> dict:
+    """Execute a cell; its error, and in which line of it, if there is one."""
+    name, source = request["name"], request["run"]
+    linecache.cache[name] = (len(source), None, source.splitlines(True), name)
+    try:
+        exec(compile(source, name, "exec"), space)
+    except Late:
+        return {"late": True}
+    except BaseException as error:
+        lines = [
+            line for frame, line in traceback.walk_tb(error.__traceback__) if frame.f_code.co_filename == name
+        ]
+        return {"error": type(error).__name__, "line": lines[0] if lines else 0}
+    return {}
+
+
+def ask(request: dict, space: dict) -> dict:
+    """Call a function of the student's on every input."""
+    function = space.get(request["ask"])
+    if not callable(function):
+        return {"missing": True}
+    return {"answers": [one(function, call, request) for call in request["calls"]]}
+
+
+def one(function, call: list, request: dict) -> dict:
+    import numpy as np
+
+    try:
+        given = [thaw(x) for x in call]
+        before = [copy.deepcopy(x) if isinstance(x, (np.ndarray, list)) else None for x in given]
+        value = function(*given)
+        several = request["several"]
+        if several and (not isinstance(value, (tuple, list)) or len(value) != several):
+            raise TypeError(f"{several} things are expected")
+        parts = [numbers(x) for x in (value if several else [value])]
+        changed = [
+            name
+            for name, a, b in zip(request["arguments"], before, given, strict=False)
+            if a is not None and not np.array_equal(a, b)
+        ]
+        return {"parts": parts, "changed": (changed or [""])[0]}
+    except Late:
+        raise
+    except BaseException as error:
+        return {"error": type(error).__name__, "text": str(error)[:200]}
+
+
+def thaw(x):
+    """Plain data as the student's function gets it."""
+    import numpy as np
+
+    if isinstance(x, dict):
+        from coursekit import robots
+
+        ((what, which),) = x.items()
+        robot = getattr(robots, which)()
+        return robot if what == "robot" else robot.fk
+    if isinstance(x, list):
+        array = np.array(x)
+        return array if array.dtype.kind in "if" else x
+    return x
+
+
+def numbers(value) -> dict:
+    """An answer as text that JSON can carry, NaN and all."""
+    import numpy as np
+
+    if value is None:
+        raise TypeError("the function returns None")
+    array = np.asarray(value)
+    if array.dtype.kind not in "biuf":
+        raise TypeError(f"the answer has dtype {array.dtype}; real numbers are expected")
+    if array.size > LARGEST:
+        raise TypeError(f"the answer has {array.size} numbers")
+    return {"shape": list(array.shape), "values": [repr(float(x)) for x in array.ravel()]}
+
+
+def main() -> None:
+    """Answer requests until there are no more."""
+    requests, replies = os.fdopen(os.dup(0), "rb"), os.dup(1)
+    nowhere = os.open(os.devnull, os.O_RDWR)
+    for descriptor in (0, 1, 2):
+        os.dup2(nowhere, descriptor)
+    sys.path.insert(0, sys.argv[1])
+    kernel = os.path.join(os.environ["HOME"], "kernel")
+    os.makedirs(kernel, exist_ok=True)
+    sys.argv = ["ipykernel_launcher.py", "-f", f"{kernel}/kernel.json"]  # as in a notebook
+    for name in ("IPython", "IPython.display", "ipywidgets"):
+        stand_in(name)
+    builtins.__dict__.update(get_ipython=Nothing(), display=Nothing())
+    main_module = types.ModuleType("__main__")
+    sys.modules["__main__"] = main_module
+    space = main_module.__dict__
+    signal.signal(signal.SIGALRM, ring)
+    # taken now: students' code may replace what it likes
+    dumps, loads, write, timer, REAL = json.dumps, json.loads, os.write, signal.setitimer, signal.ITIMER_REAL
+    for line in requests:
+        request = loads(line)
+        try:
+            timer(REAL, request["seconds"])
+            try:
+                reply = run(request, space) if "run" in request else ask(request, space)
+            finally:
+                timer(REAL, 0)
+        except Late:
+            reply = {"late": True}
+        except BaseException as error:
+            reply = {"error": type(error).__name__, "line": 0}
+        data = dumps({**reply, "nonce": request["nonce"]}).encode() + b"\n"
+        while data:
+            data = data[write(replies, data) :]
+
+
+if __name__ == "__main__":
+    main()
