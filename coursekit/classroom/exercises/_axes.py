@@ -11,8 +11,10 @@ NEAR = 1e-6  # less than this is rounding: metres, radians
 
 
 def mm(length: float) -> str:
-    """ "83 mm", "0.4 mm": as much as one can picture."""
-    length = 1000 * abs(float(length))
+    """ "83 mm", "0.4 mm", of a length in metres: as much as one can picture."""
+    length = 1000 * abs(float(length)) if abs(length) > NEAR else 0.0
+    if length == 0:
+        return "0 mm"
     return f"{length:.0f} mm" if length >= 10 else f"{length:.2g} mm"
 
 
@@ -66,25 +68,25 @@ def screw_gap(mine: np.ndarray, right: np.ndarray, mine_is: str) -> str:
         return _slide_gap(w, v, v0, mine_is)
     length = np.linalg.norm(w)
     if length < NEAR:
-        return f"{mine_is} has omega = 0, as a slide has; this one is a hinge"
+        return f"{mine_is} has omega = 0 as a slide has, but it is a hinge"
     if abs(length - 1) > NEAR:
-        return f"{mine_is} has an omega of length {length:.3g}; the length must be 1"
+        return f"{mine_is} has an omega of length {length:.3g}, not 1"
     if (angle := between(w, w0)) > NEAR:
         return f"{mine_is} points {deg(angle)} away from the right direction"
     pitch, pitch0 = w @ v, w0 @ v0
     if abs(pitch - pitch0) > NEAR and abs(pitch0) <= NEAR:
-        return f"{mine_is} slides by {mm(pitch)} along itself in each radian; a hinge does not slide"
+        return f"{mine_is} slides by {mm(pitch)} along itself in each radian, which a hinge does not"
     if (beside := np.linalg.norm(np.cross(w, v) - np.cross(w0, v0))) > NEAR:
         return f"{mine_is} has the right direction, but lies {mm(beside)} beside the right one"
-    return f"{mine_is} is the right line, but slides {pitch:.3g} m in each radian; {pitch0:.3g} m is right"
+    return f"{mine_is} is the right line, but slides {pitch:.3g} m in each radian, not {pitch0:.3g} m"
 
 
 def _slide_gap(w: np.ndarray, v: np.ndarray, v0: np.ndarray, mine_is: str) -> str:
     if w.any():
-        return f"{mine_is} has an omega that is not zero; this one is a slide, which turns nothing"
+        return f"{mine_is} has an omega that is not zero, but it is a slide"
     length, length0 = np.linalg.norm(v), np.linalg.norm(v0)
     if abs(length - length0) > NEAR:
-        return f"{mine_is}, a slide, has a v of length {length:.3g}; {length0:.3g} is right"
+        return f"{mine_is}, a slide, has a v of length {length:.3g}, not {length0:.3g}"
     return f"{mine_is}, a slide, points {deg(between(v, v0))} away from the right direction"
 
 

@@ -34,7 +34,7 @@ ALLOW = (
 
 
 def _mm(length):
-    return f"{1000 * length:.0f} mm"
+    return f"{1000 * length + 0.0:.4g} mm"
 
 
 def _axes_gap(T, right, names):
@@ -167,10 +167,10 @@ def _first_column(f, args, S):
 
 
 FRAME = (
-    Block("the x axis (column 0)", np.s_[:3, 0]),
-    Block("the y axis (column 1)", np.s_[:3, 1]),
-    Block("the z axis (column 2)", np.s_[:3, 2]),
-    Block("the position (column 3)", np.s_[:3, 3]),
+    Block("the x axis", np.s_[:3, 0]),
+    Block("the y axis", np.s_[:3, 1]),
+    Block("the z axis", np.s_[:3, 2]),
+    Block("the position", np.s_[:3, 3]),
     Block("the last row", np.s_[3]),
 )
 
@@ -194,6 +194,10 @@ EXERCISES = [
                 "the last column holds lengths: a, not alpha, goes with cos and sin of theta",
             ),
             Hint("entry_22", "look at entry (2, 2): sin(theta) stands there in place of cos(theta)"),
+            Hint(
+                "a_on_old_x",
+                "a runs along the new x axis, which theta has turned: a cos(theta), a sin(theta)",
+            ),
             Hint(
                 "modified",
                 "that is the modified transform: in the standard one, the turn about z comes first",
@@ -258,7 +262,6 @@ EXERCISES = [
                 "reversed",
                 "the links are multiplied in reverse: frame 1 hangs on frame 0, so A_1 comes first",
             ),
-            Hint("exchanged", "base and tool have changed places: the base comes first, the tool last"),
             Hint(
                 "other_order",
                 "a row holds a, alpha, d, offset in this order: you read it as a, d, alpha, offset",
@@ -291,6 +294,11 @@ EXERCISES = [
                 "no_pitch", "v may have a part along omega: such a screw slides as it turns, yours only turns"
             ),
             Hint("slide_turns", "where omega is zero nothing turns: the joint slides along v"),
+            Hint("v_for_q", "v is not a point of the axis: for a hinge through q, v = -omega x q"),
+            Hint(
+                "each_entry",
+                "np.exp takes every entry by itself; the exponential of a matrix is another thing",
+            ),
             Hint(
                 "no_last_term", "the translation has three terms: (theta - sin(theta)) [omega]^2 v is missing"
             ),

@@ -332,6 +332,7 @@ EXERCISES = [
             Hint("v_first", "that is the adjoint for (v; omega): with (omega; v), [p]R stands below R"),
             Hint("R_hat_p", "the lower left block is [p] R, in this order: first turn, then cross with p"),
             Hint("inverse", "that is the adjoint of the inverse: it maps from frame a to frame b"),
+            Hint("minus_p", "[p] has its signs the wrong way round: [p] y must be p x y, for any y"),
             Hint("no_p", "the lower left block is zero only where p is zero"),
         ),
         laws=(("Ad(T T) must be Ad(T) Ad(T)", _product),),
@@ -362,6 +363,7 @@ EXERCISES = [
                 "transposed", "the inverse of Ad(M) is not its transpose: its lower left block is in the way"
             ),
             Hint("minus_p", "the inverse of M has position -R'p, not -p"),
+            Hint("only_turned", "M shifts as well: seen from another point, v is another one"),
             Hint("only_shifted", "M turns as well: w changes too where the tool frame is turned"),
         ),
     ),

@@ -23,6 +23,12 @@ def dh_with_wrong_entry(a, alpha, d, theta):  # RPI mini project 3
     return T
 
 
+def dh_with_a_on_old_x(a, alpha, d, theta):
+    T = right.dh_transform(a, alpha, d, theta)
+    T[:2, 3] = a, 0
+    return T
+
+
 def dh_modified(a, alpha, d, theta):
     turn = right.dh_transform(0, 0, d, theta)
     return right.dh_transform(a, alpha, 0, 0) @ turn
@@ -83,10 +89,6 @@ def fk_read_as_modified(
     return reduce(np.matmul, [base, *links, tool])
 
 
-def fk_exchanged(rows, theta, base, tool):
-    return right.fk_dh(rows, theta, tool, base)
-
-
 def fk_other_order(rows, theta, base, tool):
     return right.fk_dh(rows[:, [0, 2, 1, 3]], theta, base, tool)
 
@@ -127,6 +129,19 @@ def _with_terms(S, theta, first, second, third):
     w, v = S[:3], S[3:]
     T[:3, 3] = first * v + second * np.cross(w, v) + third * np.cross(w, np.cross(w, v))
     return T
+
+
+def exp_with_v_for_q(S, theta):
+    T = right.screw_exp(S, theta)
+    T[:3, 3] = S[3:] - T[:3, :3] @ S[3:]
+    return T
+
+
+def exp_of_each_entry(S, theta):
+    (x, y, z), v = S[:3], S[3:]
+    X = np.zeros((4, 4))
+    X[:3, :3], X[:3, 3] = [[0, -z, y], [z, 0, -x], [-y, x, 0]], v
+    return np.exp(X * theta)
 
 
 def exp_without_last_term(S, theta):
@@ -226,6 +241,7 @@ WRONG = {
     "dh_transform": {
         "alpha_for_a": dh_with_alpha_for_a,
         "entry_22": dh_with_wrong_entry,
+        "a_on_old_x": dh_with_a_on_old_x,
         "modified": dh_modified,
         "degrees": dh_degrees,
         "transposed": dh_transposed,
@@ -242,7 +258,6 @@ WRONG = {
         "no_tool": fk_without_tool,
         "no_base": fk_without_base,
         "reversed": fk_reversed,
-        "exchanged": fk_exchanged,
         "other_order": fk_other_order,
         "read_as_modified": fk_read_as_modified,
     },
@@ -252,6 +267,8 @@ WRONG = {
         "sin_sin": exp_sin_sin,
         "no_pitch": exp_without_pitch,
         "slide_turns": exp_slide_turns,
+        "v_for_q": exp_with_v_for_q,
+        "each_entry": exp_of_each_entry,
         "no_last_term": exp_without_last_term,
         "terms_exchanged": exp_terms_exchanged,
         "about_q": exp_about_q,
