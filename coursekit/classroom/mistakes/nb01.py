@@ -13,13 +13,19 @@ right = Solved("nb01")
 
 def dh_with_alpha_for_a(a, alpha, d, theta):  # TPK4170 report, eq. 2.4
     T = right.dh_transform(a, alpha, d, theta)
-    T[:2, 3] *= alpha / a
+    T[:2, 3] = alpha * T[:2, 0]
     return T
 
 
 def dh_with_wrong_entry(a, alpha, d, theta):  # RPI mini project 3
     T = right.dh_transform(a, alpha, d, theta)
     T[1, 1] = np.cos(alpha) * np.sin(theta)
+    return T
+
+
+def dh_with_a_on_old_x(a, alpha, d, theta):
+    T = right.dh_transform(a, alpha, d, theta)
+    T[:2, 3] = a, 0
     return T
 
 
@@ -83,6 +89,10 @@ def fk_read_as_modified(
     return reduce(np.matmul, [base, *links, tool])
 
 
+def fk_other_order(rows, theta, base, tool):
+    return right.fk_dh(rows[:, [0, 2, 1, 3]], theta, base, tool)
+
+
 def exp_v_first(S, theta):
     return right.screw_exp(np.roll(S, 3), theta)
 
@@ -113,6 +123,42 @@ def exp_turned_back(S, theta):
     return right.screw_exp(np.concatenate([-S[:3], S[3:]]), theta)
 
 
+def _with_terms(S, theta, first, second, third):
+    """The translation (first I + second [omega] + third [omega]^2) v."""
+    T = right.screw_exp(S, theta)
+    w, v = S[:3], S[3:]
+    T[:3, 3] = first * v + second * np.cross(w, v) + third * np.cross(w, np.cross(w, v))
+    return T
+
+
+def exp_with_v_for_q(S, theta):
+    T = right.screw_exp(S, theta)
+    T[:3, 3] = S[3:] - T[:3, :3] @ S[3:]
+    return T
+
+
+def exp_of_each_entry(S, theta):
+    (x, y, z), v = S[:3], S[3:]
+    X = np.zeros((4, 4))
+    X[:3, :3], X[:3, 3] = [[0, -z, y], [z, 0, -x], [-y, x, 0]], v
+    return np.exp(X * theta)
+
+
+def exp_without_last_term(S, theta):
+    return _with_terms(S, theta, theta, 1 - np.cos(theta), 0)
+
+
+def exp_terms_exchanged(S, theta):
+    return _with_terms(S, theta, theta, theta - np.sin(theta), 1 - np.cos(theta))
+
+
+def exp_about_q(S, theta):
+    T = right.screw_exp(S, theta)
+    q = np.cross(S[:3], S[3:])
+    T[:3, 3] = q - T[:3, :3] @ q
+    return T
+
+
 def poe_without_M(S, M, theta):
     return right.fk_poe(S, np.eye(4), theta)
 
@@ -123,6 +169,10 @@ def poe_with_M_left(S, M, theta):
 
 def poe_reversed(S, M, theta):
     return right.fk_poe(S[:, ::-1], M, theta[::-1])
+
+
+def poe_with_M_each_time(S, M, theta):
+    return reduce(np.matmul, [right.screw_exp(s, t) @ M for s, t in zip(S.T, theta, strict=True)])
 
 
 def poe_with_body_screws(S, M, theta):
@@ -162,6 +212,19 @@ def screws_of_frame_before(rows, base):
     return _columns([T @ _turn(0, 0, 1) @ np.linalg.inv(T) for T in _frames(rows, base)[:-1]])
 
 
+def screws_of_row_alone(rows, base):
+    single = [base @ right.mdh_transform(*row) for row in rows]
+    return _columns([T @ _turn(0, 0, 1) @ np.linalg.inv(T) for T in single])
+
+
+def screws_of_standard_rows(rows, base):
+    columns, T = [], base
+    for row in rows:
+        T = T @ right.dh_transform(*row)
+        columns.append(T @ _turn(0, 0, 1) @ np.linalg.inv(T))
+    return _columns(columns)
+
+
 def screws_from_one_side(rows, base):
     return _columns([T @ _turn(0, 0, 1) for T in _frames(rows, base)[1:]])
 
@@ -178,6 +241,7 @@ WRONG = {
     "dh_transform": {
         "alpha_for_a": dh_with_alpha_for_a,
         "entry_22": dh_with_wrong_entry,
+        "a_on_old_x": dh_with_a_on_old_x,
         "modified": dh_modified,
         "degrees": dh_degrees,
         "transposed": dh_transposed,
@@ -194,6 +258,7 @@ WRONG = {
         "no_tool": fk_without_tool,
         "no_base": fk_without_base,
         "reversed": fk_reversed,
+        "other_order": fk_other_order,
         "read_as_modified": fk_read_as_modified,
     },
     "screw_exp": {
@@ -202,18 +267,26 @@ WRONG = {
         "sin_sin": exp_sin_sin,
         "no_pitch": exp_without_pitch,
         "slide_turns": exp_slide_turns,
+        "v_for_q": exp_with_v_for_q,
+        "each_entry": exp_of_each_entry,
+        "no_last_term": exp_without_last_term,
+        "terms_exchanged": exp_terms_exchanged,
+        "about_q": exp_about_q,
         "turned_back": exp_turned_back,
     },
     "fk_poe": {
         "no_M": poe_without_M,
         "M_left": poe_with_M_left,
         "reversed": poe_reversed,
+        "M_each_time": poe_with_M_each_time,
         "body_screws": poe_with_body_screws,
         "degrees": poe_degrees,
     },
     "screws_from_dh": {
         "about_x": screws_about_x,
         "frame_before": screws_of_frame_before,
+        "row_alone": screws_of_row_alone,
+        "standard": screws_of_standard_rows,
         "one_side": screws_from_one_side,
         "no_base": screws_without_base,
         "no_offset": screws_without_offset,

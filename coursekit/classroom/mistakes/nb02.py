@@ -79,6 +79,12 @@ def adjoint_of_inverse(T):
     return np.linalg.inv(right.adjoint(T))
 
 
+def adjoint_minus_p(T):
+    Ad = right.adjoint(T)
+    Ad[3:, :3] *= -1
+    return Ad
+
+
 def adjoint_without_p(T):
     Ad = right.adjoint(T)
     Ad[3:, :3] = 0
@@ -97,6 +103,12 @@ def body_with_minus_p(S, M):
     inverse = np.linalg.inv(M)
     inverse[:3, 3] = -M[:3, 3]
     return right.adjoint(inverse) @ S
+
+
+def body_only_turned(S, M):
+    turn = np.eye(4)
+    turn[:3, :3] = M[:3, :3].T
+    return right.adjoint(turn) @ S
 
 
 def body_only_shifted(S, M):
@@ -128,12 +140,14 @@ WRONG = {
         "v_first": adjoint_v_first,
         "R_hat_p": adjoint_R_hat_p,
         "inverse": adjoint_of_inverse,
+        "minus_p": adjoint_minus_p,
         "no_p": adjoint_without_p,
     },
     "body_screws": {
         "ad_of_M": body_by_ad_of_M,
         "transposed": body_by_transpose,
         "minus_p": body_with_minus_p,
+        "only_turned": body_only_turned,
         "only_shifted": body_only_shifted,
     },
 }

@@ -1,0 +1,1 @@
+"""Right versions of every exercise in other styles: each must pass."""
