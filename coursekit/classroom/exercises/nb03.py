@@ -86,7 +86,8 @@ def _turn_by(rng, low, high, upright=False):
 
 
 def _half_turn(rng):
-    x, y, z = rng.uniform(0.5, 2, 3)
+    """Numbers without rounding: an arccos is not NaN here, but has no sign."""
+    x, y, z = rng.choice([-1, 1]) * np.array([1.5, 2.0, 0.5])
     return [0.0, 0.0, 1.0], [x, y, z], [-x, -y, z]
 
 
@@ -322,7 +323,7 @@ EXERCISES = [
             Edge("where R[0, 2] is negative", lambda rng: _bent(rng, (0.3, 1.3), out6=-1), 2),
             Edge(
                 "for whole numbers",
-                lambda rng: (_whole_pose(wrist(np.pi / 2 * np.array([1, 1, 2])), 0)[:3, :3],),
+                lambda rng: (_whole_pose(wrist(np.pi / 2 * np.array([0, 1, 1])), 0)[:3, :3],),
             ),
         ),
         usual="where R[0, 0] > 0, R[2, 0] < 0 and R[0, 2] > 0",
