@@ -4,14 +4,30 @@ from __future__ import annotations
 
 import numpy as np
 
-from coursekit.classroom.exercise import Exercise, Hint
+from coursekit.classroom.exercise import Block, Edge, Exercise, Hint
+from coursekit.classroom.exercises._arm import KR6, deg, mm, wrist_in_plane
 
-# What the student's functions may call from coursekit.kinematics: nothing, numpy is enough.
-ALLOW = ()
+# What the student's functions may call from coursekit.kinematics: what they wrote before. numpy is enough.
+ALLOW = (
+    "lie.hat3",
+    "lie.vee3",
+    "lie.exp3",
+    "lie.inverse",
+    "lie.adjoint",
+    "rotations.rotx",
+    "rotations.roty",
+    "rotations.rotz",
+    "subproblems.subproblem1",
+)
+
+NONE = 1e-6  # metres, radians, lengths of twists: less is rounding
 
 
-def _orthogonal(rng):
-    return np.linalg.qr(rng.normal(size=(6, 6)))[0]
+def _orthogonal(rng, n=6):
+    return np.linalg.qr(rng.normal(size=(n, n)))[0]
+
+
+# ---- det_from_blocks
 
 
 def _wrist_jacobian(rng):
@@ -21,30 +37,186 @@ def _wrist_jacobian(rng):
     return (J,)
 
 
-def _forearm(rng):
-    return rng.choice([-1, 1]) * rng.uniform(0.03, 0.2), rng.uniform(0.3, 0.7)
+def _singular_arm(rng):
+    (J,) = _wrist_jacobian(rng)
+    J[3:, 2] = J[3:, 0] - J[3:, 1]
+    return (J,)
 
 
-def _arm(rng):
-    """theta_2 and the lengths of an arm whose wrist centre can come to axis 1."""
-    a1, a2, a3, d4, d6 = rng.uniform([0.02, 0.4, 0.02, 0.35, 0.05], [0.1, 0.6, 0.1, 0.6, 0.15])
-    outwards = rng.uniform(-0.8, 0.8) * np.hypot(a3, d4)
-    theta2 = -np.arccos(np.clip((outwards - a1) / a2, -0.95, 0.95))
+def _nothing_upper_left(rng):
+    (J,) = _wrist_jacobian(rng)
+    J[:3, :3] = 0
+    return (J,)
+
+
+def _whole_wrist_jacobian(rng):
+    """Triangular blocks: neither determinant is 0."""
+    J = np.zeros((6, 6), dtype=int)
+    J[:3, :3] = rng.integers(-3, 4, (3, 3))
+    J[:3, 3:] = np.triu(rng.integers(1, 4, (3, 3)))
+    J[3:, :3] = np.tril(rng.integers(1, 4, (3, 3))) * [[1], [-1], [1]]
+    return (J,)
+
+
+def _by_numpy(args, value, right):
+    if not np.isfinite(value):
+        return ""
+    return f"numpy's det of the whole J is {right:.4g} in one example, yours is {value + 0.0:.4g}"
+
+
+# ---- elbow_angle and shoulder_theta3
+
+
+def _forearm(rng, side=1):
+    return side * rng.uniform(0.03, 0.2), rng.uniform(0.3, 0.7)
+
+
+def _out_of_line(args, value, right):
+    a3, d4 = args
+    gap = abs(a3 * np.cos(value) - d4 * np.sin(value))
+    if not np.isfinite(gap):
+        return ""
+    if gap < NONE:
+        return "the wrist is in line with axes 2 and 3, but between them: the arm is folded, not stretched"
+    return f"at your angle the wrist centre is {mm(gap)} away from the line through axes 2 and 3"
+
+
+def _lengths(rng):
+    """a1, a2, a3, d4, d6."""
+    return rng.uniform([0.02, 0.4, 0.02, 0.4, 0.05], [0.1, 0.6, 0.1, 0.6, 0.15])
+
+
+def _arm(rng, sign=-1):
+    """theta_2 and the lengths of an arm whose wrist centre can come to axis 1.
+
+    sign : of theta_2; the upper arm points up where it is negative.
+    """
+    a1, a2, a3, d4, d6 = _lengths(rng)
+    outwards = rng.uniform(-0.5, 0.5) * np.hypot(a3, d4)
+    theta2 = sign * np.arccos(np.clip((outwards - a1) / a2, -0.95, 0.95))
     return theta2, [a1, a2, a3, d4, d6]
 
 
-def _nearly_singular(rng):
-    """J of size 1 or 1000; up to two singular values are nothing but rounding, one may be small."""
-    sigma = rng.uniform(0.3, 2, 6)
-    sigma[4] = rng.choice([1e-4, 0.5]) * sigma[0]
-    zeros = rng.integers(0, 3)
-    sigma[:zeros] = 2e-8 * sigma[5]
-    return rng.choice([1, 1000]) * _orthogonal(rng) @ np.diag(sigma) @ _orthogonal(rng), 1e-6
+def _arm_without(rng, which):
+    theta2, lengths = _arm(rng)
+    lengths[which] = 0.0
+    return theta2, lengths
+
+
+def _kr6(rng):
+    a1, _, a2, a3, d4 = KR6
+    return -2.2, [a1, a2, a3, d4, 0.08]
+
+
+def _off_axis_1(args, value, right):
+    theta2, (a1, a2, a3, d4, _) = args
+    if not np.isfinite(value):
+        return ""
+    lengths = (a1, 0, a2, a3, d4)
+    out, up = wrist_in_plane(theta2, value, lengths)
+    _, highest = wrist_in_plane(theta2, right, lengths)
+    if abs(out) < NONE:
+        if highest - up < NONE:
+            return ""
+        return f"the wrist centre is on axis 1, but {mm(highest - up)} lower than it can be"
+    where = "in front of" if out > 0 else "behind"
+    return f"put back into the arm, your angle leaves the wrist centre {mm(abs(out))} {where} axis 1"
+
+
+# ---- rank
+
+
+def _matrix(rng, sigma, columns=6):
+    """6 rows, these singular values."""
+    U, V = _orthogonal(rng), _orthogonal(rng, columns)
+    n = len(sigma)
+    return U[:, :n] @ np.diag(sigma) @ V[:n]
+
+
+def _nearly_singular(rng, size=1, lost=None, small=None, columns=6):
+    """Singular values of which `lost` are nothing but rounding; one may be small and still counts."""
+    sigma = rng.uniform(0.3, 2, min(columns, 6))
+    lost = rng.integers(0, 3) if lost is None else lost
+    if small or (small is None and rng.integers(2)):
+        sigma[-1] = 1e-4 * sigma[0]
+    sigma[:lost] = 2e-8 * sigma.max()
+    return size * _matrix(rng, sigma, columns), 1e-6
+
+
+def _limit_met(rng):
+    """Nothing is larger than 1 times the largest."""
+    return _nearly_singular(rng)[0], 1.0
+
+
+def _coarse(rng):
+    return _matrix(rng, [2, 1.5, 1, 0.3, 0.1, 0.02]), 0.2
+
+
+def _fine(rng):
+    return _matrix(rng, [2, 1.5, 1, 0.3, 1e-7, 1e-14]), 1e-10
+
+
+def _nilpotent(rng):
+    return np.diag(rng.uniform(0.5, 2, 5), 1), 1e-6
+
+
+def _whole_matrix(rng):
+    J = np.eye(6, 6, dtype=int) + np.eye(6, k=1, dtype=int) * rng.integers(1, 4)
+    J[4:] = J[:2]
+    return J, 1e-6
+
+
+def _counted(args, value, right):
+    J, tol = args
+    sigma = np.linalg.svd(J)[1]
+    shown = ", ".join(f"{s / sigma[0]:.2g}" for s in sigma)
+    return (
+        f"divided by the largest, the singular values of one example are {shown}; "
+        f"{right:.0f} of them are above tol = {tol:g}, you return {value:g}"
+    )
+
+
+# ---- lost_motion
 
 
 def _singular(rng):
-    sigma = np.append(rng.uniform(0.3, 2, 5), 0)
-    return (_orthogonal(rng) @ np.diag(sigma) @ _orthogonal(rng),)
+    return (_matrix(rng, np.append(rng.uniform(0.3, 2, 5), 0)),)
+
+
+def _one_row_zero(rng):
+    """The motion of this row is lost. The other rows are no longer at right angles to each other."""
+    J = _orthogonal(rng) + 0.2 * _orthogonal(rng)
+    J[rng.integers(6)] = 0
+    return (J,)
+
+
+def _stretched(rng):
+    """The KR6 with its elbow stretched, as in the notebook."""
+    from coursekit import robots
+
+    elbow = np.arctan2(KR6[3], KR6[4])
+    return (robots.kuka_kr6().jacobian_body([0.3, -0.7, elbow, 0.5, 0.8, 0.2]),)
+
+
+def _whole_singular(rng):
+    J = 2 * np.eye(6, dtype=int) + np.eye(6, k=1, dtype=int) * rng.integers(1, 3)
+    J[:, 5] = J[:, 0] + J[:, 1] - J[:, 4]
+    return (J,)
+
+
+def _not_lost(args, value, right):
+    J, size = args[0], np.linalg.norm(value)
+    if not np.isfinite(size) or size < NONE:
+        return ""
+    given = J.T @ (value / size)
+    off = np.degrees(np.arccos(min(abs(value @ right) / size, 1.0)))
+    if np.abs(given).max() < NONE:
+        return f"your twist has the right direction; its length should be 1 and is {size:.4g}"
+    k = int(np.abs(given).argmax())
+    return (
+        f"your motion is {deg(off)} away from the lost one: it is not at right angles to what joint {k + 1} "
+        f"gives (their product is {given[k] * size:.2g}, not 0)"
+    )
 
 
 EXERCISES = [
@@ -54,6 +226,13 @@ EXERCISES = [
         draw=_wrist_jacobian,
         shape=(),
         tol=1e-9,
+        samples=3,
+        edges=(
+            Edge("where J[:3, :3] is zero", _nothing_upper_left),
+            Edge("where the lower left block is singular", _singular_arm),
+            Edge("for whole numbers", _whole_wrist_jacobian, tol=1e-6),
+        ),
+        residual=_by_numpy,
         hints=(
             Hint("no_sign", "the size is right: count how often two rows change places"),
             Hint("diagonal", "these are the blocks on the diagonal; one of them is 0, so look at the others"),
@@ -69,9 +248,18 @@ EXERCISES = [
         compare="angle",
         tol=1e-7,
         unit="rad",
+        samples=3,
+        edges=(
+            Edge("for the KR6", lambda rng: (0.035, 0.42)),
+            Edge("where a3 is negative", lambda rng: _forearm(rng, -1), 2),
+            Edge("for whole numbers", lambda rng: (35, 420)),
+        ),
+        usual="where a3 is positive",
+        residual=_out_of_line,
         hints=(
             Hint("inverted", "you exchanged the lengths: for a small offset a3 the angle must be small"),
             Hint("ratio", "this is the ratio of the lengths, not yet an angle"),
+            Hint("swapped", "arctan2 takes the leg opposite the angle first: that is a3"),
             Hint("sine", "a3 and d4 are the legs of the triangle; you took d4 for its longest side"),
             Hint("rounded", "rounded to three digits: near this pose that already costs a singular value"),
             Hint("sign", "the forearm must turn the other way to bring the wrist into line"),
@@ -85,7 +273,18 @@ EXERCISES = [
         compare="angle",
         tol=1e-7,
         unit="rad",
+        edges=(
+            Edge("for the KR6", _kr6),
+            Edge("where theta_2 is positive", lambda rng: _arm(rng, 1), 2),
+            Edge("for an upper arm that points straight up", lambda rng: (-np.pi / 2, _arm(rng)[1])),
+            Edge("where a1 is 0", lambda rng: _arm_without(rng, 0)),
+            Edge("where a3 is 0", lambda rng: _arm_without(rng, 2)),
+            Edge("for whole numbers", lambda rng: (-2, [1, 5, 3, 4, 2])),
+        ),
+        usual="where theta_2 is negative",
+        residual=_off_axis_1,
         hints=(
+            Hint("order", "here the lengths are a1, a2, a3, d4, d6: another order than in notebook 03"),
             Hint("flange", "you brought the flange to axis 1; it is the wrist centre that must lie there"),
             Hint("rounded", "rounded to three digits, as in a printed table: return the full number"),
             Hint("no_a1", "axis 1 is not above axis 2: the length a1 between them is missing"),
@@ -101,7 +300,22 @@ EXERCISES = [
         draw=_nearly_singular,
         shape=(),
         tol=0.1,
-        samples=8,
+        samples=4,
+        edges=(
+            Edge("where two motions are lost", lambda rng: _nearly_singular(rng, lost=2)),
+            Edge("where one singular value is small", lambda rng: _nearly_singular(rng, small=True)),
+            Edge("for a J that is 1000 times larger", lambda rng: _nearly_singular(rng, 1000, 1)),
+            Edge("for a J that is 1000 times smaller", lambda rng: _nearly_singular(rng, 1e-3, 1, True)),
+            Edge("for seven joints", lambda rng: _nearly_singular(rng, columns=7)),
+            Edge("for two joints", lambda rng: _nearly_singular(rng, lost=0, columns=2)),
+            Edge("for tol = 1", _limit_met),
+            Edge("for tol = 0.2", _coarse),
+            Edge("for tol = 1e-10", _fine),
+            Edge("where all eigenvalues of J are 0", _nilpotent),
+            Edge("for whole numbers", _whole_matrix),
+        ),
+        usual="for six joints and tol = 1e-6",
+        residual=_counted,
         hints=(
             Hint("determinant", "a determinant tells 6 from less, but not 5 from 4, and it has a unit"),
             Hint(
@@ -117,6 +331,18 @@ EXERCISES = [
         draw=_singular,
         shape=(6,),
         compare="up_to_sign",
+        samples=3,
+        edges=(
+            Edge("for the KR6 with its elbow stretched", _stretched),
+            Edge("where a row of J is zero", _one_row_zero, 2),
+            Edge("for whole numbers", _whole_singular),
+        ),
+        usual="where no row of J is zero",
+        blocks=(
+            Block("the upper half (omega)", np.s_[:3]),
+            Block("the lower half (v)", np.s_[3:]),
+        ),
+        residual=_not_lost,
         hints=(
             Hint("joint_rates", "that is the joint motion that moves nothing; the lost motion is a twist"),
             Hint("v_first", "(omega; v): you exchanged the two halves"),

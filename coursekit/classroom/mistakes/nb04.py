@@ -48,12 +48,19 @@ def shoulder_without_a3(theta2, lengths):
 
 
 def rank_by_determinant(J, tol):
-    return 6 if abs(np.linalg.det(J)) > tol else 5
+    n = min(J.shape)
+    square = J @ J.T if J.shape[0] == n else J.T @ J
+    return n if np.sqrt(abs(np.linalg.det(square))) > tol else n - 1
 
 
 def rank_by_squares(J, tol):
     squares = np.linalg.eigvalsh(J @ J.T)
     return int((squares > tol * squares.max()).sum())
+
+
+def rank_of_the_lost(J, tol):
+    sigma = np.linalg.svd(J)[1]
+    return int((sigma < tol * sigma[0]).sum())
 
 
 WRONG = {
@@ -65,12 +72,14 @@ WRONG = {
     },
     "elbow_angle": {
         "inverted": lambda a3, d4: np.arctan(d4 / a3),
+        "swapped": lambda a3, d4: np.arctan2(d4, a3),
         "ratio": lambda a3, d4: a3 / d4,
         "sine": lambda a3, d4: np.arcsin(a3 / d4),
         "rounded": lambda a3, d4: np.round(right.elbow_angle(a3, d4), 3),  # table 5.1: 0.083
         "sign": lambda a3, d4: -right.elbow_angle(a3, d4),
     },
     "shoulder_theta3": {
+        "order": lambda theta2, lengths: shoulder(theta2, lengths[0], *lengths[2:]),
         "flange": shoulder_of_the_flange,
         "rounded": lambda theta2, lengths: np.round(right.shoulder_theta3(theta2, lengths), 3),
         "no_a1": shoulder_without_a1,
@@ -83,7 +92,7 @@ WRONG = {
         "determinant": rank_by_determinant,
         "absolute": lambda J, tol: int((np.linalg.svd(J)[1] > tol).sum()),
         "squares": rank_by_squares,
-        "lost": lambda J, tol: 6 - right.rank(J, tol),
+        "lost": rank_of_the_lost,
     },
     "lost_motion": {
         "joint_rates": lambda J: np.linalg.svd(J)[2][-1],
