@@ -10,13 +10,14 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
 from .attempt import Attempt, attempt
 from .course import Course, the_course
-from .exercise import Exercise
+from .exercise import Exercise, thaw
+from .panel import offer
 from .told import LEVELS, told
 from .verdict import Example, Verdict, verdict
 
@@ -68,7 +69,7 @@ def check(name: str, function: Callable, show: str | None = None) -> None:
     found = work.verdict
     if printed := next((a.printed for a in work.attempts if a.printed), ""):
         print(printed[:2000].rstrip("\n"))
-    text = told(found, work.exercise, function, work.examples, work.attempts, work.place, show)
+    text = work.text(function, show)
     if found.right and (before := _mended.pop(name, "")):
         text += f"; {before} was it"
     if not found.right:
@@ -76,6 +77,9 @@ def check(name: str, function: Callable, show: str | None = None) -> None:
     print(f"{MARKS.get(found.kind, '✗')} {name}: {text}")
     if os.environ.get("CI") and not found.right:
         raise CheckFailed(f"{name}: {text}")
+    if not found.right and found.kind != "unwritten" and show is None:
+        further = {"more": "more", "an example": "example"}
+        offer(work.png(), {label: partial(work.text, function, level) for label, level in further.items()})
 
 
 def diagnose(name: str, function: Callable) -> Diagnosis:
@@ -86,8 +90,7 @@ def diagnose(name: str, function: Callable) -> Diagnosis:
     'misfit'
     """
     work = _Work(name, function)
-    text = told(work.verdict, work.exercise, function, work.examples, work.attempts, work.place, "all")
-    return Diagnosis(work.verdict.kind, text)
+    return Diagnosis(work.verdict.kind, work.text(function, "all"))
 
 
 def example(name: str, number: int) -> list:
@@ -97,8 +100,6 @@ def example(name: str, number: int) -> list:
     >>> len(classroom.example("dh_transform", 0))
     4
     """
-    from .exercise import thaw
-
     unit, exercise = _ours().find(name)
     rows = examples_of(exercise, _ours().samples(unit).get(name, {}))
     if not 0 <= number < len(rows):
@@ -151,6 +152,18 @@ class _Work:
         self.verdict, self.attempts = judged(
             self.exercise, function, self.examples, _ours().allowed(unit), self._wrong_part
         )
+
+    def text(self, function: Callable, show: str | None) -> str:
+        """What is told at a level."""
+        return told(self.verdict, self.exercise, function, self.examples, self.attempts, self.place, show)
+
+    def png(self) -> bytes:
+        """What there is to see, b'' if there is nothing."""
+        if self.exercise.look is None:
+            return b""
+        from .picture import picture  # matplotlib, only now
+
+        return picture(self.exercise, self.verdict, self.examples, self.attempts)
 
     def _wrong_part(self, function: Callable) -> Verdict | None:
         """Parts before wholes: a fault in a function that this one calls is told as that one's."""

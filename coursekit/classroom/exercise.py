@@ -93,6 +93,9 @@ class Exercise:
     residual  : residual(args, value, right) -> how far a wrong answer misses, in the course's own terms: "put
                 back into the arm, your angles miss the wrist centre by 83 mm"; "" if it cannot be said. value
                 and right are arrays, or tuples of them.
+    look      : look(args, value) -> what there is to see of an answer, for `picture`: a dict with any of
+                frames (k, 4, 4), chains (lists of points (m, 3)), lines and arrows (pairs of point and
+                direction), points (k, 3), ellipsoid (3, 3) with half axes as columns. Lengths in metres.
     """
 
     signature: str
@@ -111,6 +114,7 @@ class Exercise:
     usual: str = USUAL
     blocks: tuple[Block, ...] = ()
     residual: Callable[[list, Any, Any], str] | None = None
+    look: Callable[[list, Any], dict] | None = None
     name: str = field(init=False)
 
     def __post_init__(self):

@@ -85,9 +85,14 @@ def _literal(x: Any) -> str:
         ((what, name),) = x.items()
         return f"robots.{name}()" + (".fk" if what == "fk" else "")
     (value,) = thaw([x])
-    if isinstance(value, np.ndarray):
-        return f"np.array({x!r})"
-    return repr(x)
+    return f"np.array({_digits(x)})" if isinstance(value, np.ndarray) else _digits(x)
+
+
+def _digits(x: Any) -> str:
+    """Numbers with six digits: enough for the four that are shown of an answer."""
+    if isinstance(x, list):
+        return f"[{', '.join(map(_digits, x))}]"
+    return f"{x:.6g}" if isinstance(x, float) and x != int(x) else repr(x)
 
 
 def _side_by_side(name: str, mine: np.ndarray, right: np.ndarray, mask: np.ndarray) -> str:

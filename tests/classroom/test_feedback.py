@@ -1,0 +1,123 @@
+"""The proof that `check` meets the student: no wrong answer is accepted, nearly all are named or placed.
+
+`wrong/played.json` holds 306 wrong answers written while the released notebooks were played as a student
+would, without a look at the rest; the other files hold those that their authors thought of while they wrote
+the feedback. `right/` holds right versions of every exercise in other styles.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import itertools
+import json
+import linecache
+import math
+from collections import Counter
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import coursekit
+from coursekit import classroom
+from coursekit.classroom import repair
+from coursekit.classroom.course import the_course
+from coursekit.classroom.mistakes import Solved
+from tests.classroom.mutations import reasons, survivors
+
+HERE = Path(__file__).resolve().parent
+COURSE = the_course()
+EXERCISES = [(unit, exercise) for unit in COURSE.units for exercise in COURSE.exercises(unit)]
+NAMES = [exercise.name for _, exercise in EXERCISES]
+FILES = sorted((HERE / "wrong").glob("*.json"))
+NUMBERS = itertools.count()
+HELPED = ("named", "placed", "error", "misfit", "library")
+MODULES = ("lie", "rotations", "dh", "robots", "ik", "path", "jacobians", "singularity", "Robot")
+
+
+def names_of_a_notebook() -> dict:
+    """What a student has around: numpy, the package, and every exercise solved."""
+    names = {"np": np, "numpy": np, "math": math, **{name: getattr(coursekit, name) for name in MODULES}}
+    for unit, exercise in EXERCISES:
+        names[exercise.name] = getattr(Solved(unit), exercise.name)
+    return names
+
+
+def run(code: str, names: dict, readable: bool = True) -> None:
+    """As a notebook runs a cell: its text can be read afterwards."""
+    file = f"<answer {next(NUMBERS)}>"
+    if readable:
+        linecache.cache[file] = (len(code), None, code.splitlines(True), file)
+    exec(compile(code, file, "exec"), names)
+
+
+def diagnosis(row: dict, readable: bool = True) -> classroom.Diagnosis:
+    names = names_of_a_notebook()
+    with contextlib.suppress(Exception):
+        run(row.get("setup", ""), names)
+    run(row["code"], names, readable)
+    return classroom.diagnose(row["exercise"], names[row["exercise"]])
+
+
+@cache
+def judged(file: Path, readable: bool = True) -> list[tuple[dict, classroom.Diagnosis]]:
+    return [(row, diagnosis(row, readable)) for row in json.loads(file.read_text("utf-8"))]
+
+
+@pytest.mark.parametrize("readable", [True, False], ids=["with its text", "without"])
+@pytest.mark.parametrize("file", FILES, ids=lambda path: path.stem)
+def test_no_wrong_answer_is_accepted_and_nearly_all_are_helped(file, readable):
+    rows = judged(file, readable)
+    accepted = [f"{row['exercise']}: {row['label']}" for row, found in rows if found.right]
+    assert not accepted
+    count = Counter(found.kind for _, found in rows)
+    helped = sum(count[kind] for kind in HELPED)
+    left = [f"{row['exercise']}: {row['label']}" for row, found in rows if found.kind not in HELPED]
+    assert helped >= 0.95 * len(rows), (count, left)
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda path: path.stem)
+def test_the_first_sentence_is_short(file):
+    """Text first, no wall of numbers; what is asked for later is another matter."""
+    for row, found in judged(file):
+        first = found.text.split("\n  Look again")[0].split("\n  Example")[0]
+        assert len(first.splitlines()) <= 8, f"{row['exercise']}, {row['label']}: {found.text}"
+
+
+def test_repair_keeps_its_budget(monkeypatch):
+    """Trials are counted, not timed: none takes more than its share of executed lines."""
+    spent = []
+
+    class Counted(repair._Search):
+        def __init__(self, *arguments):
+            super().__init__(*arguments)
+            spent.append(self)
+
+    monkeypatch.setattr(repair, "_Search", Counted)
+    for row in json.loads((HERE / "wrong" / "played.json").read_text("utf-8"))[::6]:
+        diagnosis(row)
+    assert len(spent) > 10
+    assert all(search.left > -max(map(len, [search.examples])) for search in spent)
+    assert all(search.box.ticks <= 3_001 for search in spent)
+
+
+@pytest.mark.parametrize("unit", COURSE.units)
+def test_right_versions_in_other_styles_pass(unit):
+    module = importlib.import_module(f"tests.classroom.right.{unit}")
+    versions = {name: value for name, value in vars(module).items() if "__" in name.strip("_")}
+    for exercise in COURSE.exercises(unit):
+        mine = {name: f for name, f in versions.items() if name.split("__")[0] == exercise.name}
+        assert len(mine) >= 3, f"{exercise.name} has {len(mine)} versions"
+        for name, function in mine.items():
+            found = classroom.diagnose(exercise.name, function)
+            assert found.right, f"{name}: {found.text}"
+
+
+@pytest.mark.parametrize("unit, exercise", EXERCISES, ids=NAMES)
+def test_every_edit_of_the_solution_is_noticed_or_equivalent(unit, exercise):
+    """A survivor without a reason is a wrong function that `check` accepts; a reason without one is stale."""
+    known = reasons(unit).get(exercise.name, {})
+    assert all(known.values()), "a reason is a sentence"
+    assert set(survivors(COURSE, unit, exercise)) == set(known)
