@@ -112,7 +112,7 @@ def ellipsoid__transposed(J):
 
 
 def dls_step__inverse(J, e, k):
-    m, n = J.shape
+    n = J.shape[1]
     return np.linalg.inv(J.T @ J + k**2 * np.identity(n)) @ J.T @ e
 
 
