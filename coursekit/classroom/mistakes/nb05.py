@@ -103,6 +103,22 @@ def differences_in_space(fk, theta, step):
     return np.vstack([J[:3], J[3:] - np.cross(J[:3].T, p).T])
 
 
+def differences_of_poses(product):
+    """Column i is log6(product(T_-, T_+)) / (2 step)."""
+
+    def columns(fk, theta, step):
+        return lie.log6(product(*_quotients(fk, theta, step))).T / (2 * step)
+
+    return columns
+
+
+def differences_all_at_once(fk, theta, step):
+    behind, ahead = fk(theta - step), fk(theta + step)
+    w = lie.log3(ahead[:3, :3] @ behind[:3, :3].T)
+    column = np.concatenate([w, ahead[:3, 3] - behind[:3, 3]]) / (2 * step)
+    return np.tile(column[:, None], len(theta))
+
+
 def differences_of_euler_angles(fk, theta, step):
     behind, ahead = _quotients(fk, theta, step)
     turn = rotations.zyx(ahead[:, :3, :3]) - rotations.zyx(behind[:, :3, :3])
@@ -201,6 +217,9 @@ WRONG = {
     "jacobian_by_differences": {
         "forward": differences_forward,
         "half": differences_by_one_step,
+        "body_by_log6": differences_of_poses(lambda behind, ahead: lie.inverse(behind) @ ahead),
+        "space_by_log6": differences_of_poses(lambda behind, ahead: ahead @ lie.inverse(behind)),
+        "all_at_once": differences_all_at_once,
         "turn_in_tool": differences_turn_in_tool,
         "body": differences_in_body,
         "space": differences_in_space,

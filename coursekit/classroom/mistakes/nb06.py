@@ -48,6 +48,25 @@ def frames_without_last(points, centre):
     return right.tool_frames(points, centre)[:-1]
 
 
+def _frames_along(points, centre, d):
+    """The right frames but for their motion d (m, 3)."""
+    x = right.tool_frames(points, centre)[:, :3, 0]
+    y = d - np.sum(d * x, axis=1, keepdims=True) * x
+    y = y / np.linalg.norm(y, axis=1, keepdims=True)
+    T = right.tool_frames(points, centre)
+    T[:, :3, :3] = np.stack([x, y, np.cross(x, y)], axis=-1)
+    return T
+
+
+def frames_backward(points, centre):
+    step = np.diff(points, axis=0)
+    return _frames_along(points, centre, np.concatenate([step[:1], step]))
+
+
+def frames_central(points, centre):
+    return _frames_along(points, centre, np.gradient(points, axis=0))
+
+
 def frames_with_last_copied(points, centre):
     T = right.tool_frames(points, centre)
     T[-1, :3, 1] = T[-2, :3, 1]
@@ -90,6 +109,11 @@ def quaternion_signs_of_differences(R):
     return q
 
 
+def quaternion_divided_by_w(R):
+    w = np.sqrt(1 + np.trace(R)) / 2
+    return np.concatenate([[w], _signs(R) / (4 * w)])
+
+
 def quaternion_turned_back(R):
     return right.quaternion(R) * [1, -1, -1, -1]
 
@@ -118,6 +142,18 @@ def zyx_of_the_other_product(R):
     return -right.zyx(R.T)
 
 
+def zyx_of_the_inverse(R):
+    return right.zyx(R.T)
+
+
+def zyx_by_arctan(R):
+    return np.array([np.arctan(R[1, 0] / R[0, 0]), right.zyx(R)[1], np.arctan(R[2, 1] / R[2, 2])])
+
+
+def zyx_with_z_twice(R):
+    return np.array([np.arctan2(R[1, 2], R[0, 2]), np.arccos(R[2, 2]), np.arctan2(R[2, 1], -R[2, 0])])
+
+
 def zyx_degrees(R):
     return np.degrees(right.zyx(R))
 
@@ -139,6 +175,15 @@ def inside_any(theta, lower, upper):
 
 def inside_turns_up_only(theta, lower, upper):
     return inside_without_turns(np.where(theta < lower, theta + 2 * np.pi, theta), lower, upper)
+
+
+def inside_turns_down_only(theta, lower, upper):
+    return inside_without_turns(np.where(theta > upper, theta - 2 * np.pi, theta), lower, upper)
+
+
+def inside_all_joints_alike(theta, lower, upper):
+    turns = 2 * np.pi * np.arange(-9, 10)[:, None, None]
+    return inside_without_turns(theta + turns, lower, upper).any(axis=0)
 
 
 # ---- speed
@@ -172,6 +217,23 @@ def speed_signed(q, points, v_max):
     return 1 / (np.diff(q, axis=0) / step[:, None] / v_max).max()
 
 
+def speed_with_bound_of_the_fastest(q, points, v_max):
+    slope = (_use(q, points, v_max) * v_max).max(axis=0)
+    return v_max[np.argmax(slope)] / slope.max()
+
+
+def speed_of_all_joints_together(q, points, v_max):
+    return v_max.min() / np.linalg.norm(_use(q, points, v_max) * v_max, axis=1).max()
+
+
+def speed_by_whole_length(q, points, v_max):
+    return np.linalg.norm(np.diff(points, axis=0)) / (np.abs(np.diff(q, axis=0)) / v_max).max()
+
+
+def speed_of_the_last_joint(q, points, v_max):
+    return 1 / _use(q, points, v_max)[:, -1].max()
+
+
 WRONG = {
     "tool_frames": {
         "inward": frames_inward,
@@ -180,6 +242,8 @@ WRONG = {
         "x_along": frames_swapped,
         "about_origin": frames_about_origin,
         "no_last": frames_without_last,
+        "backward": frames_backward,
+        "central": frames_central,
         "last_copied": frames_with_last_copied,
     },
     "quaternion": {
@@ -187,6 +251,7 @@ WRONG = {
         "vector_first": quaternion_vector_first,
         "roots_only": quaternion_roots_only,
         "lost_at_half_turn": quaternion_signs_of_differences,
+        "divided_by_w": quaternion_divided_by_w,
         "turned_back": quaternion_turned_back,
     },
     "zyx": {
@@ -195,6 +260,9 @@ WRONG = {
         "reversed": zyx_reversed,
         "arcsin": zyx_by_arcsin,
         "xyz": zyx_of_the_other_product,
+        "of_the_inverse": zyx_of_the_inverse,
+        "arctan": zyx_by_arctan,
+        "zyz": zyx_with_z_twice,
         "degrees": zyx_degrees,
     },
     "inside": {
@@ -202,10 +270,16 @@ WRONG = {
         "wrapped": inside_wrapped,
         "any_joint": inside_any,
         "turns_up_only": inside_turns_up_only,
+        "turns_down_only": inside_turns_down_only,
+        "joints_together": inside_all_joints_alike,
     },
     "largest_speed": {
         "wrapped": speed_wrapped,
         "one_bound": speed_one_bound,
+        "bound_of_the_fastest": speed_with_bound_of_the_fastest,
+        "joints_added": speed_of_all_joints_together,
+        "whole_length": speed_by_whole_length,
+        "last_joint": speed_of_the_last_joint,
         "mean": speed_mean,
         "one_step": speed_one_step,
         "signed": speed_signed,

@@ -1,0 +1,69 @@
+"""Rotations for the exercises of notebook 06: how their arguments are drawn."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def direction(rng):
+    k = rng.normal(size=3)
+    return k / np.linalg.norm(k)
+
+
+def turn(k, angle):
+    K = np.array([[0, -k[2], k[1]], [k[2], 0, -k[0]], [-k[1], k[0], 0]])
+    return (np.eye(3) + np.sin(angle) * K + (1 - np.cos(angle)) * K @ K,)
+
+
+def attitude(rng):
+    """A rotation by less than a right angle, or by more than a third of a turn."""
+    return turn(direction(rng), rng.uniform(0.3, 1.4) if rng.integers(2) else rng.uniform(2.3, 3.1))
+
+
+def large(axis):
+    """A turn by more than a third of a turn about a line near one axis: that component is the largest."""
+
+    def draw(rng):
+        k = rng.choice([-1, 1], 3) * np.roll([0.8, 0.48, 0.36], axis)
+        return turn(k, rng.uniform(2.3, 2.9))
+
+    return draw
+
+
+def half_turn(rng):
+    k = direction(rng)
+    return (2 * np.outer(k, k) - np.eye(3),)
+
+
+def half_turn_in_a_plane(rng):
+    """About a line square to one axis: one component is 0, and gives no sign."""
+    a = rng.uniform(0.3, 1.2)
+    k = np.roll([np.cos(a), -np.sin(a), 0], rng.integers(3))
+    return (2 * np.outer(k, k) - np.eye(3),)
+
+
+def half_turn_about(axis):
+    return lambda rng: (np.diag(2 * np.eye(3, dtype=int)[axis] - 1),)
+
+
+def nearly_half_a_turn(rng):
+    return turn(direction(rng), np.pi - 1e-7)
+
+
+def right_angles(rng):
+    """Every axis on another one: a third of a turn, w = x = y = z."""
+    return ([[0, 0, 1], [1, 0, 0], [0, 1, 0]],)
+
+
+def quarter_turn(rng):
+    c, s = 0, int(rng.choice([-1, 1]))
+    return ([[c, -s, 0], [s, c, 0], [0, 0, 1]],)
+
+
+def away_from_lock(rng, quarters=(-2, -1, 0, 1)):
+    """A rotation whose pitch is at least 0.2 rad from a right angle."""
+    yaw, roll = np.pi / 2 * rng.choice(quarters, 2) + rng.uniform(0.2, 1.3, 2)
+    pitch = rng.choice([-1, 1]) * rng.uniform(0.2, 1.3)
+    (cz, sz), (cy, sy), (cx, sx) = ((np.cos(a), np.sin(a)) for a in (yaw, pitch, roll))
+    turns = [[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]], [[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]]
+    return (np.linalg.multi_dot([*turns, [[1, 0, 0], [0, cx, -sx], [0, sx, cx]]]),)
