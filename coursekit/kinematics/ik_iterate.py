@@ -151,13 +151,13 @@ def closest(robot: Robot, goals: np.ndarray, theta: np.ndarray, tol: float, rows
     theta = np.where(hinges, np.remainder(theta + np.pi, 2 * np.pi) - np.pi, theta)
     here, damping2 = see(theta), np.full(len(theta), 1e-2)
     with np.errstate(all="ignore"):
-        for _ in range(DOWNHILL):
+        for k in range(DOWNHILL + 1):
             theta, Jt, e, error, score = here
             H = np.swapaxes(Jt, -1, -2) @ Jt + damping2[:, None, None] * np.eye(Jt.shape[-1])
             step = (Jt @ np.linalg.solve(H, e[..., None]))[..., 0]
             gain = (step * (Jt @ e[..., None])[..., 0]).sum(axis=-1)  # what the step promises, to first order
             done = (error[:, used.start // 3 :] < tol).all(axis=-1)
-            if (done | (gain < SETTLED * score)).all():
+            if k == DOWNHILL or (done | (gain < SETTLED * score)).all():
                 break
             there = see(theta + step)
             good = there[-1] < score

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,6 +15,21 @@ from numpy.typing import ArrayLike
 from . import checks, dh, lie, screws
 
 CHUNK = 1024  # configurations per block: keeps the working set of a large batch in the cache
+AT_LIMIT = 1e-9  # rad or m beyond a limit that still count as inside: rounding of an angle that was computed
+
+
+class About(TypedDict, total=False):
+    """What a Robot may be told beyond its screws: `Robot` explains each."""
+
+    name: str
+    q_min: ArrayLike | None
+    q_max: ArrayLike | None
+    v_max: ArrayLike | None
+    home: ArrayLike | None
+    standard_dh: dh.Table | None
+    modified_dh: dh.Table | None
+    source: str
+    discrepancies: tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +70,14 @@ class Robot:
 
     if TYPE_CHECKING:  # the constructor takes lists, too; fields say what __post_init__ makes of them
 
-        def __init__(self, S: ArrayLike, M: ArrayLike, **more: Any) -> None: ...
+        def __init__(
+            self,
+            S: ArrayLike,
+            M: ArrayLike,
+            *,
+            joint_types: Iterable[str] | None = None,
+            **more: Unpack[About],
+        ) -> None: ...
 
     def __post_init__(self):
         S = checks.array(self.S, (), f"{self.name}: S")
@@ -89,7 +111,9 @@ class Robot:
     # -- ways to make one ---------------------------------------------------------------------------------
 
     @classmethod
-    def from_screws(cls, S: ArrayLike, M: ArrayLike, **more: Any) -> Robot:
+    def from_screws(
+        cls, S: ArrayLike, M: ArrayLike, joint_types: Iterable[str] | None = None, **more: Unpack[About]
+    ) -> Robot:
         """From space screws S (6, n) and the home pose M (4, 4). Other fields by name (see the class).
 
         Raises ValueError where a screw has no direction or none of unit length, or M is not in SE(3).
@@ -98,11 +122,16 @@ class Robot:
         >>> robot.joint_types
         ('revolute',)
         """
-        return cls(S, M, **more)
+        return cls(S, M, joint_types=joint_types, **more)
 
     @classmethod
     def from_axes(
-        cls, w: ArrayLike, q: ArrayLike, M: ArrayLike, joint_types: Iterable[str] | None = None, **more: Any
+        cls,
+        w: ArrayLike,
+        q: ArrayLike,
+        M: ArrayLike,
+        joint_types: Iterable[str] | None = None,
+        **more: Unpack[About],
     ) -> Robot:
         """From what one reads off a drawing: directions w (n, 3) and points q (n, 3) on the axes, metres.
 
@@ -129,7 +158,7 @@ class Robot:
         return cls(S, M, joint_types=joint_types, **more)
 
     @classmethod
-    def from_dh(cls, table: dh.Table, **more: Any) -> Robot:
+    def from_dh(cls, table: dh.Table, **more: Unpack[About]) -> Robot:
         """From a `dh.Table` of either convention; the other table is made from it.
 
         >>> table = dh.Table(a=[0.5, 0.25], alpha=[0, 0], d=[0, 0], theta=[0, 0])
@@ -141,8 +170,8 @@ class Robot:
                 f"{more.get('name', 'robot')}: from_dh needs a dh.Table, got {type(table).__name__}"
             )
         S, M = table.screws()
-        tables = {"standard_dh": table.to_standard(), "modified_dh": table.to_modified()}
-        return cls(S, M, **{**tables, "joint_types": table.joint_types, **more})
+        more = {"standard_dh": table.to_standard(), "modified_dh": table.to_modified(), **more}
+        return cls(S, M, joint_types=table.joint_types, **more)
 
     def with_tool(self, T: ArrayLike) -> Robot:
         """The same arm with a tool: T (4, 4) is the new tool frame in the old one. M becomes M T.
@@ -272,7 +301,8 @@ class Robot:
         """Whether every joint can be brought inside its limits. theta (..., n) -> bool (...).
 
         A revolute joint may be turned by whole turns first: theta and theta +- 2 pi are the same attitude of
-        the link, and a joint that can reach one of them can reach it. NaN is outside.
+        the link, and a joint that can reach one of them can reach it. A limit missed by less than 1e-9 rad
+        (or m) is kept: angles that come out of a computation are no better than that. NaN is outside.
 
         >>> from coursekit import robots
         >>> s030 = robots.kawasaki_s030()       # joint 2: -50 to 195 deg
@@ -283,8 +313,7 @@ class Robot:
 
     def inside(self, theta: ArrayLike) -> np.ndarray:
         """Whether each joint can be brought inside its limits. theta (..., n) -> bool (..., n)."""
-        shifted = self.nearest_turn(theta)
-        return (self.q_min <= shifted) & (shifted <= self.q_max)
+        return self._between_limits(self.nearest_turn(theta))
 
     def nearest_turn(self, theta: ArrayLike) -> np.ndarray:
         """theta with revolute joints turned by whole turns into their limits where that is possible.
@@ -292,13 +321,16 @@ class Robot:
         theta (..., n) -> (..., n). A joint that no whole turn brings inside keeps its angle.
         """
         theta = checks.joint_angles(theta, self.n, self.name)
-        below, above = self.q_min - theta, theta - self.q_max
+        below, above = self.q_min - AT_LIMIT - theta, theta - self.q_max - AT_LIMIT
         turns = np.where(
             below > 0, np.ceil(below / (2 * np.pi)), np.where(above > 0, -np.ceil(above / (2 * np.pi)), 0)
         )
         turned = theta + 2 * np.pi * turns
         revolute = np.array([kind == "revolute" for kind in self.joint_types])
-        return np.where(revolute & (self.q_min <= turned) & (turned <= self.q_max), turned, theta)
+        return np.where(revolute & self._between_limits(turned), turned, theta)
+
+    def _between_limits(self, theta):
+        return (self.q_min - AT_LIMIT <= theta) & (theta <= self.q_max + AT_LIMIT)
 
     # -- how it is put together ------------------------------------------------------------------------------
 

@@ -5,6 +5,8 @@ both describe the same arm is not assumed here: the tests compare them. Lengths 
 angles in degrees where the sheet does so.
 """
 
+from collections.abc import Callable, Iterator, Mapping
+
 import numpy as np
 
 from . import dh
@@ -13,13 +15,32 @@ from .robot import Robot
 X, Y, Z = np.eye(3)
 
 
-def all() -> dict[str, Robot]:
+class Catalogue(Mapping[str, Robot]):
+    """{name: Robot}: a robot is made when it is first asked for."""
+
+    def __init__(self, *makers: Callable[[], Robot]) -> None:
+        self._makers = {make.__name__: make for make in makers}
+        self._made: dict[str, Robot] = {}
+
+    def __getitem__(self, name: str) -> Robot:
+        if name not in self._made:
+            self._made[name] = self._makers[name]()
+        return self._made[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._makers)
+
+    def __len__(self) -> int:
+        return len(self._makers)
+
+
+def all() -> Catalogue:
     """Every robot of the catalogue by the name of its function. -> {name: Robot}
 
     >>> all()["abb_irb1200"].name
     'ABB IRB 1200-5/0.9'
     """
-    makers = (
+    return Catalogue(
         kuka_kr6,
         abb_irb1200,
         kuka_kr10,
@@ -30,7 +51,6 @@ def all() -> dict[str, Robot]:
         puma560,
         ur5,
     )
-    return {make.__name__: make() for make in makers}
 
 
 def kuka_kr6() -> Robot:

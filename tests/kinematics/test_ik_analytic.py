@@ -275,6 +275,19 @@ def test_reasons_too_near_axis_1():
     assert ik.analytic(robot, T).reasons() == (text,) * 8
 
 
+@pytest.mark.parametrize("name", ["kuka_kr6", "puma560"])
+def test_a_joint_at_its_limit_is_inside(name):
+    robot, rng = ALL[name], np.random.default_rng(0)
+    theta = rng.uniform(robot.q_min, robot.q_max, (200, 6))
+    rows, joint = np.arange(200), rng.integers(0, 6, 200)
+    theta[rows, joint] = np.where(rng.random(200) < 0.5, robot.q_min[joint], robot.q_max[joint])
+    solutions = ik.analytic(robot, robot.fk(theta))
+    k = solutions.nearest(theta)
+    assert turned_apart(solutions.theta[rows, k], theta).max() < 1e-9
+    assert solutions.within_limits[rows, k].all()
+    assert all(solutions.reasons(i)[k[i]] == "" for i in range(200))
+
+
 def test_reasons_of_limits():
     robot = ALL["kuka_kr6"]
     solutions = ik.analytic(robot, robot.fk(robot.home))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from coursekit import Robot, ik, lie, robots
-from coursekit.kinematics import ik_numeric
+from coursekit.kinematics import ik_iterate, ik_numeric
 from coursekit.kinematics.ik_iterate import _arrays, _numbers, look
 
 from .conftest import GOLDEN_ROBOTS, load
@@ -182,6 +182,19 @@ def test_out_of_reach_ends_at_the_closest_pose(method):
     e[:3] = lie.log3(T[:3, :3] @ robot.fk(found.theta)[:3, :3].T)
     assert np.abs(J.T @ e).max() < 1e-3  # no joint brings it nearer
     assert robot.fk(found.history[0].theta).tolist() == robot.fk(robot.home).tolist()
+
+
+def test_the_way_downhill_keeps_its_last_step(monkeypatch):
+    robot = ALL["kuka_kr6"]
+    start = np.array([[0.3, -1, 0.6, 0.4, 0.9, 0.2]])
+    goal = robot.fk(start + 0.3)
+    scores = []
+    for steps in (0, 1, 2):
+        monkeypatch.setattr(ik_iterate, "DOWNHILL", steps)
+        end = ik_iterate.closest(robot, goal, start, 1e-10)
+        scores.append(end.score[0])
+        assert np.allclose(robot.fk(end.theta)[0, :3, 3] - goal[0, :3, 3], 0, atol=end.error[0, 1] + 1e-12)
+    assert scores[0] > scores[1] > scores[2]
 
 
 def test_out_of_reach_in_a_batch_leaves_the_others_alone():

@@ -235,6 +235,13 @@ def test_limits_wider_than_a_turn_keep_the_angle():
     assert robot.nearest_turn([7.0])[0] == pytest.approx(7.0 - 2 * np.pi)
 
 
+def test_a_limit_is_kept_to_a_nanoradian():
+    robot = one_joint()
+    assert robot.within_limits([[-0.5 - 9e-10], [2.5 + 9e-10], [2.5 + 9e-10 - 2 * np.pi]]).all()
+    assert not robot.within_limits([[-0.5 - 2e-9], [2.5 + 2e-9]]).any()
+    assert robot.nearest_turn([2.5 + 9e-10])[0] == 2.5 + 9e-10  # told as it is, not moved to the limit
+
+
 def test_nan_is_outside_and_no_limits_are_no_limits():
     assert not one_joint().within_limits([np.nan])
     free = Robot.from_axes([[0, 0, 1]], [[0, 0, 0]], np.eye(4))

@@ -25,6 +25,15 @@ def test_the_catalogue_is_complete():
     assert len({robot.name for robot in ALL.values()}) == len(ALL)
 
 
+def test_a_robot_is_made_when_it_is_asked_for(monkeypatch):
+    made = []
+    monkeypatch.setattr(robots, "kuka_kr6", lambda: made.append("kuka_kr6"))
+    robots.all()["ur5"]
+    assert not made
+    with pytest.raises(KeyError, match="kuka_kr7"):
+        robots.all()["kuka_kr7"]
+
+
 # -- golden data --
 
 
