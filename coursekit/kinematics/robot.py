@@ -5,16 +5,17 @@ T(theta) = e^[S_1]theta_1 ... e^[S_n]theta_n M      (Lynch & Park, eq. 4.14)
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import checks, dh, lie, screws
+from . import axes, checks, dh, lie
+from .links import Links, places_on
 
-CHUNK = 1024  # configurations per block: keeps the working set of a large batch in the cache
+CHUNK = 2048  # configurations per block: keeps the working set of a large batch in the cache
 AT_LIMIT = 1e-9  # rad or m beyond a limit that still count as inside: rounding of an angle that was computed
 
 
@@ -26,6 +27,7 @@ class About(TypedDict, total=False):
     q_max: ArrayLike | None
     v_max: ArrayLike | None
     home: ArrayLike | None
+    places: ArrayLike | None
     standard_dh: dh.Table | None
     modified_dh: dh.Table | None
     source: str
@@ -43,10 +45,20 @@ class Robot:
     q_min, q_max   (n,) joint limits, rad or m; infinite where none are known
     v_max          (n,) speed limits, rad/s or m/s; NaN where none are known
     home           (n,) the pose the maker calls home (zero where it has none)
-    standard_dh    dh.Table or None: the same arm, frame i on axis i + 1
-    modified_dh    dh.Table or None: the same arm, frame i on axis i
+    places         (n, 3) where each joint stands on its axis at theta = 0, in metres: points given to
+                   `from_axes`, origins of a given modified DH table, or else on each axis the point nearest
+                   the place before
+    standard_dh    dh.Table: the same arm, frame i on axis i + 1. The one given, or made from the axes (None
+                   where a joint is a screw with a pitch)
+    modified_dh    dh.Table: the same arm, frame i on axis i
     source         where the numbers come from
     discrepancies  what sources say otherwise, one sentence each
+    B              (6, n) body screws, Ad(M^-1) S
+    links          what is constant between the joints, see `links.Links`
+
+    Raises ValueError for screws without direction or unit length, M not in SE(3), limits that exclude each
+    other, places off their axes, and a DH table that describes another arm than S and M: the text names the
+    joint or the row and says by how much.
     """
 
     S: np.ndarray
@@ -57,16 +69,13 @@ class Robot:
     q_max: np.ndarray = checks.NOT_GIVEN
     v_max: np.ndarray = checks.NOT_GIVEN
     home: np.ndarray = checks.NOT_GIVEN
+    places: np.ndarray = checks.NOT_GIVEN
     standard_dh: dh.Table | None = None
     modified_dh: dh.Table | None = None
     source: str = ""
     discrepancies: tuple[str, ...] = ()
-    B: np.ndarray = field(init=False, repr=False)  # (6, n) body screws, Ad(M^-1) S
-    _exponentials: np.ndarray = field(init=False, repr=False)  # (n, 4, 16), see screws.exponential_constants
-    _exponentials_to_tool: np.ndarray = field(init=False, repr=False)  # the same, M in the last joint
-    _frames_at_zero: np.ndarray = field(init=False, repr=False)  # (n, 4, 4)
-    _axis_steps: np.ndarray = field(init=False, repr=False)  # (n, 4, 4), see screws.steps_along
-    _slides: np.ndarray = field(init=False, repr=False)  # (n,), see screws.slide
+    B: np.ndarray = field(init=False, repr=False)
+    links: Links = field(init=False, repr=False)
 
     if TYPE_CHECKING:  # the constructor takes lists, too; fields say what __post_init__ makes of them
 
@@ -95,14 +104,29 @@ class Robot:
         self._store("S", S, (6, n))
         self._store("M", checks.pose(self.M, f"{self.name}: M"), (4, 4))
         self._store("B", lie.adjoint(lie.inverse(self.M)) @ S, (6, n))
-        object.__setattr__(self, "joint_types", screws.joint_types(S, self.joint_types, self.name))
-        constants = np.array([screws.exponential_constants(s) for s in S.T])
-        self._store("_exponentials", constants.reshape(n, 4, 16), (n, 4, 16))
-        constants[-1] = constants[-1] @ self.M
-        self._store("_exponentials_to_tool", constants.reshape(n, 4, 16), (n, 4, 16))
-        self._store("_frames_at_zero", self._place_frames(), (n, 4, 4))
-        self._store("_axis_steps", screws.steps_along(S), (n, 4, 4))
-        self._store("_slides", [screws.slide(s) for s in S.T], (n,))
+        object.__setattr__(self, "joint_types", _joint_types(S, self.joint_types, self.name))
+        self._place()
+
+    def _place(self):
+        """Tables and places follow from each other, where only one of them is given; links from both."""
+        zero, places = np.zeros(self.n), self.places
+        tables = [table for table in (self.standard_dh, self.modified_dh) if table is not None]
+        for table in tables:
+            complaint = table.disagreement(self.S, self.M)
+            if complaint:
+                raise ValueError(f"{self.name}: {complaint}")
+        if places is None:
+            places = tables[-1].to_modified().frames(zero)[:, :3, 3] if tables else places_on(self.S)
+        self._store("places", places, (self.n, 3))
+        has_pitch = np.abs((self.S[:3] * self.S[3:]).sum(axis=0)) > axes.SAME
+        if not tables and not np.any(has_pitch):
+            w = axes.directions_of(self.S)
+            tables = [dh.from_axes(w, self.places, self.M, self.joint_types)]
+        x = tables[-1].to_modified().frames(zero)[:, :3, 0].round(15) if tables else None
+        if tables:
+            object.__setattr__(self, "standard_dh", tables[0].to_standard())
+            object.__setattr__(self, "modified_dh", tables[-1].to_modified())
+        object.__setattr__(self, "links", Links.between(self.S, self.M, self.places, x))
 
     def _store(self, key, value, shape):
         """Fields are set once, as read-only copies: a frozen dataclass allows no plain assignment."""
@@ -142,20 +166,12 @@ class Robot:
         >>> robot.S[:, 0].tolist()
         [0.0, 0.0, 1.0, 0.0, -1.0, 0.0]
         """
-        name = more.get("name", "robot")
-        w, q = checks.array(w, (3,), f"{name}: w"), checks.array(q, (3,), f"{name}: q")
-        if w.ndim != 2 or w.shape != q.shape:
-            raise ValueError(
-                f"{name}: w and q must both be (n, 3), one row per joint, got {w.shape} and {q.shape}"
-            )
-        length = np.linalg.norm(w, axis=1, keepdims=True)
-        if not np.all(length > 0):
-            raise ValueError(f"{name}: the axis of joint {np.argmin(length) + 1} has direction zero")
-        unit = w / length
-        slides = np.array([kind == "prismatic" for kind in dh.joint_types(joint_types, len(unit))])[:, None]
-        S = np.hstack([np.where(slides, 0.0, unit), np.where(slides, unit, -np.cross(unit, q))]).T
-        S = S + 0.0  # no -0
-        return cls(S, M, joint_types=joint_types, **more)
+        w, q, M, types = dh.axes_of_arm(w, q, M, joint_types, more.get("name", "robot"))
+        slides = np.array([kind == "prismatic" for kind in types])[:, None]
+        S = np.hstack([np.where(slides, 0.0, w), np.where(slides, w, -np.cross(w, q))]).T + 0.0  # no -0
+        if not {"places", "standard_dh", "modified_dh"} & set(more):
+            more["places"] = q
+        return cls(S, M, joint_types=types, **more)
 
     @classmethod
     def from_dh(cls, table: dh.Table, **more: Unpack[About]) -> Robot:
@@ -170,7 +186,8 @@ class Robot:
                 f"{more.get('name', 'robot')}: from_dh needs a dh.Table, got {type(table).__name__}"
             )
         S, M = table.screws()
-        more = {"standard_dh": table.to_standard(), "modified_dh": table.to_modified(), **more}
+        more.setdefault("standard_dh", table.to_standard())
+        more.setdefault("modified_dh", table.to_modified())
         return cls(S, M, joint_types=table.joint_types, **more)
 
     def with_tool(self, T: ArrayLike) -> Robot:
@@ -190,7 +207,8 @@ class Robot:
         """
         T = checks.pose(T, f"{self.name}: the base")
         tables = self._tables(lambda table: replace(table, base=T @ table.base))
-        return replace(self, S=lie.adjoint(T) @ self.S, M=T @ self.M, **tables)
+        places = self.places @ T[:3, :3].T + T[:3, 3]
+        return replace(self, S=lie.adjoint(T) @ self.S, M=T @ self.M, places=places, **tables)
 
     def _tables(self, change):
         """The DH tables of the arm after `change`, where it has any."""
@@ -214,69 +232,55 @@ class Robot:
         [0.445, 0.0, 0.9]
         """
         theta = checks.joint_angles(theta, self.n, self.name)
-        flat = theta.reshape(-1, self.n)
-        T = np.empty((len(flat), 4, 4))
-        for start in range(0, len(flat), CHUNK):
-            block = slice(start, start + CHUNK)
-            E = self._link_exponentials(flat[block], self._exponentials_to_tool)
-            product = E[0]
-            for e in E[1:]:
-                product = product @ e
-            T[block] = product
+        T = _identities((theta.size // self.n,))
+        for block, (*_, tool) in self._walks(theta):
+            T[block, :3] = tool.T
         return T.reshape(*theta.shape[:-1], 4, 4)
+
+    def link_frames(self, theta: ArrayLike) -> np.ndarray:
+        """Poses of the frames fixed to the links, in the space frame. theta (..., n) -> (..., n, 4, 4).
+
+        Frame i has its z along joint axis i, its x along the common normal to axis i + 1 (as modified DH),
+        and at theta = 0 its origin at `places[i]`. Link n carries the tool, so the last frame is the tool
+        frame: link_frames(theta)[..., -1, :, :] is fk(theta).
+        """
+        theta = checks.joint_angles(theta, self.n, self.name)
+        F = _identities((theta.size // self.n, self.n))
+        for block, frames in self._walks(theta):
+            for i, frame in enumerate(frames):
+                F[block, min(i, self.n - 1), :3] = frame.T  # in the last place the tool follows joint n
+        return F.reshape(*theta.shape[:-1], self.n, 4, 4)
 
     def displacements(self, theta: ArrayLike) -> np.ndarray:
         """How each link moved from where it stands at theta = 0: e^[S_1]theta_1 ... e^[S_i]theta_i.
 
         theta (..., n) -> (..., n, 4, 4). A point p of link i (space frame, theta = 0) is now at D_i p.
         """
-        theta = checks.joint_angles(theta, self.n, self.name)
+        at_zero = self.links.at_zero[:-1].copy()
+        at_zero[-1] = self.M
+        return self.link_frames(theta) @ lie.inverse(at_zero)
+
+    def _walks(self, theta: np.ndarray) -> Iterator[tuple[slice, Iterator[np.ndarray]]]:
+        """theta (..., n) in blocks: which configurations each holds, and their walk along the arm."""
         flat = theta.reshape(-1, self.n)
-        D = np.empty((len(flat), self.n, 4, 4))
         for start in range(0, len(flat), CHUNK):
             block = slice(start, start + CHUNK)
-            E = self._link_exponentials(flat[block], self._exponentials)
-            product = D[block, 0] = E[0]
-            for i in range(1, self.n):
-                product = D[block, i] = product @ E[i]
-        return D.reshape(*theta.shape[:-1], self.n, 4, 4)
-
-    def link_frames(self, theta: ArrayLike) -> np.ndarray:
-        """Poses of the frames fixed to the links, in the space frame. theta (..., n) -> (..., n, 4, 4).
-
-        Frame i has its z along joint axis i and its origin where the modified DH convention puts it (for a
-        robot without such a table: the point of the axis nearest the previous origin). Link n carries the
-        tool, so the last frame is the tool frame: link_frames(theta)[..., -1, :, :] is fk(theta).
-        """
-        return self.displacements(theta) @ self._frames_at_zero
-
-    def _link_exponentials(self, theta, constants):
-        """e^[S_i]theta_i of every joint. theta (N, n) -> (n, N, 4, 4): one product, no loop."""
-        t = theta.T
-        basis = np.empty((*t.shape, 4))
-        basis[..., 0], basis[..., 1], basis[..., 2], basis[..., 3] = 1, np.sin(t), np.cos(t), t
-        return (basis @ constants).reshape(self.n, -1, 4, 4)
+            yield block, self.links.along(flat[block].T)
 
     # -- Jacobians -------------------------------------------------------------------------------------------
 
     def jacobian_space(self, theta: ArrayLike) -> np.ndarray:
         """J_s: V_s = J_s thetadot, both in the space frame. theta (..., n) -> (..., 6, n), rows (omega; v).
 
-        Column i is Ad(e^[S_1]theta_1 ... e^[S_{i-1}]theta_{i-1}) S_i (eq. 5.11).
+        Column i is Ad(e^[S_1]theta_1 ... e^[S_{i-1}]theta_{i-1}) S_i (eq. 5.11): the screw of joint i where
+        the joints before it have carried it.
 
         >>> from coursekit import robots
         >>> robot = robots.planar_2r()
         >>> bool(np.all(robot.jacobian_space([0, 0]) == robot.S))
         True
         """
-        theta = checks.joint_angles(theta, self.n, self.name)
-        flat = theta.reshape(-1, self.n)
-        J = np.empty((len(flat), 6, self.n))
-        for start in range(0, len(flat), CHUNK):
-            block = slice(start, start + CHUNK)
-            moved = screws.moved(flat[block].T, self.joint_types, self._axis_steps, self._slides)
-            J[block] = moved.transpose(2, 0, 1)
-        return J.reshape(*theta.shape[:-1], 6, self.n)
+        return self._jacobian(theta, about_tool=False)
 
     def jacobian_body(self, theta: ArrayLike) -> np.ndarray:
         """J_b: V_b = J_b thetadot, in the tool frame. theta (..., n) -> (..., 6, n), rows (omega; v).
@@ -290,10 +294,15 @@ class Robot:
 
         Rows (w; v): v = v_s + w x p moves the reference point of the space Jacobian to the tool point p.
         """
-        J, p = self.jacobian_space(theta), self.fk(theta)[..., :3, 3]
-        w = np.moveaxis(J[..., :3, :], -2, 0)
-        J[..., 3:, :] += np.moveaxis(screws.cross(w, np.moveaxis(p, -1, 0)[..., None]), 0, -2)
-        return J
+        return self._jacobian(theta, about_tool=True)
+
+    def _jacobian(self, theta, about_tool):
+        """The joints' screws where they are now, seen from the origin or from the tool point."""
+        theta = checks.joint_angles(theta, self.n, self.name)
+        J = np.empty((theta.size // self.n, 6, self.n))
+        for block, (*frames, tool) in self._walks(theta):
+            J[block] = self.links.screws(frames, tool[3] if about_tool else 0.0).transpose(2, 0, 1)
+        return J.reshape(*theta.shape[:-1], 6, self.n)
 
     # -- limits ----------------------------------------------------------------------------------------------
 
@@ -332,11 +341,24 @@ class Robot:
     def _between_limits(self, theta):
         return (self.q_min - AT_LIMIT <= theta) & (theta <= self.q_max + AT_LIMIT)
 
-    # -- how it is put together ------------------------------------------------------------------------------
 
-    def _place_frames(self):
-        """The link frames at theta = 0, see link_frames. (n, 4, 4)."""
-        tables = self.modified_dh
-        frames = screws.frames_on(self.S) if tables is None else tables.frames(np.zeros(self.n))
-        frames[-1] = self.M
-        return frames
+def _identities(batch):
+    T = np.empty((*batch, 4, 4))
+    T[..., 3, :] = 0, 0, 0, 1
+    return T
+
+
+def _joint_types(S, given, name):
+    """The joint types that the screws S (6, n) themselves say, n words; `given` (or None) must agree."""
+    length, speed = np.linalg.norm(S[:3], axis=0), np.linalg.norm(S[3:], axis=0)
+    for i in range(S.shape[1]):
+        if length[i] == 0 and speed[i] == 0:
+            raise ValueError(f"{name}: screw {i + 1} has direction zero: (omega; v) = 0 moves nothing")
+        size, part = (speed[i], "|v|") if length[i] == 0 else (length[i], "|omega|")
+        if abs(size - 1) > checks.UNIT:
+            raise ValueError(f"{name}: screw {i + 1} must have {part} = 1, got {size:.6g}")
+    said = tuple("prismatic" if w == 0 else "revolute" for w in length)
+    given = dh.joint_types(given, S.shape[1]) if given is not None else said
+    if given != said:
+        raise ValueError(f"{name}: joint_types say {given}, but the screws in S are {said}")
+    return said

@@ -103,7 +103,7 @@ def test_rooms_import_only_downwards(path):
     assert not upwards, f"{relative(path)} imports {upwards}, from a room that does not stand below it"
 
 
-@pytest.mark.parametrize("path", sorted((PACKAGE / "kinematics").glob("*.py")), ids=relative)
+@pytest.mark.parametrize("path", sorted((PACKAGE / "kinematics").rglob("*.py")), ids=relative)
 def test_mathematics_needs_numpy_alone(path):
     topic = path.stem.split("_")[0]
     for module, at_top in imports_of(path):

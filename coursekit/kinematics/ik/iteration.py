@@ -13,9 +13,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import checks
-from .ik_iterate import Step, closest, iterate
-from .robot import Robot
+from .. import checks
+from ..robot import Robot
+from .engine import Step, closest, iterate
 
 CONVERGED = "converged"
 LIMIT = "iteration limit: still coming nearer"

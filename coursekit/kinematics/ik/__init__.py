@@ -5,9 +5,9 @@ newton, transpose, damped_least_squares            one solution from a guess, wi
 newton_step, transpose_step, dls_step              one step of each
 """
 
-from .ik_analytic import Solutions, analytic, arm, wrist_centre
-from .ik_iterate import Step
-from .ik_numeric import (
+from .closed_form import Solutions, analytic, arm, wrist_centre
+from .engine import Step
+from .iteration import (
     Numeric,
     damped_least_squares,
     dls_step,
