@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import numpy as np
@@ -36,7 +37,9 @@ class About(TypedDict, total=False):
 
 @dataclass(frozen=True, eq=False)
 class Robot:
-    """An open-chain robot arm. Make one with `from_screws`, `from_axes` or `from_dh`; arrays are read-only.
+    """An open-chain robot arm. Make one with `from_screws`, `from_axes`, `from_dh` or `from_urdf`.
+
+    Arrays are read-only.
 
     S              (6, n) space screws, one per column, (omega; v), at theta = 0
     M              (4, 4) pose of the tool in the space frame at theta = 0
@@ -189,6 +192,25 @@ class Robot:
         more.setdefault("standard_dh", table.to_standard())
         more.setdefault("modified_dh", table.to_modified())
         return cls(S, M, joint_types=table.joint_types, **more)
+
+    @classmethod
+    def from_urdf(cls, path: str | Path, tip: str | None = None, **more: Unpack[About]) -> Robot:
+        """From a URDF: the chain from the root link to the link `tip`, whose frame is the tool frame.
+
+        path: the name of a file (or its text). tip: None, where only one link carries no other. Revolute,
+        continuous, prismatic and fixed joints; limits and speeds as given (a speed of 0 is unknown); joints
+        beside the chain do not matter. Raises ValueError that names the element and its line: for a mimic,
+        floating or planar joint, links without a chain, numbers that are none, a document type, no XML.
+
+        >>> robot = Robot.from_urdf('''<robot name="turntable"> <link name="floor"/> <link name="plate"/>
+        ...     <joint name="turn" type="continuous"> <parent link="floor"/> <child link="plate"/>
+        ...         <origin xyz="0 0 0.3"/> <axis xyz="0 0 1"/> </joint> </robot>''')
+        >>> robot.name, robot.n, robot.M[2, 3].tolist()
+        ('turntable', 1, 0.3)
+        """
+        from . import urdf
+
+        return cls.from_axes(**{**urdf.read(path, tip), **more})
 
     def with_tool(self, T: ArrayLike) -> Robot:
         """The same arm with a tool: T (4, 4) is the new tool frame in the old one. M becomes M T.
