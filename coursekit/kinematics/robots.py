@@ -1,4 +1,4 @@
-"""The data sheets: nine robots with every form that their sources allow, and where each number comes from.
+"""The data sheets: eleven robots with every form that their sources allow, and where each number comes from.
 
 Screws are read off the drawing (a direction and a point per axis); DH tables are the published ones. That
 both describe the same arm is not assumed here: the tests compare them. Lengths are written in millimetres and
@@ -50,6 +50,8 @@ def all() -> Catalogue:
         planar_2r,
         puma560,
         ur5,
+        scara,
+        stanford,
     )
 
 
@@ -305,6 +307,75 @@ def ur5() -> Robot:
         source="robotics-toolbox-python, models.DH.UR5; limits and speeds: Universal Robots' description",
         discrepancies=(
             "Speeds and limits are the customary ones and were not checked against a data sheet.",
+        ),
+    )
+
+
+def scara() -> Robot:
+    """Adept Cobra 600: a SCARA, two hinges, a slide and a hinge, all vertical. Practice robot.
+
+    Joint 3 counts downwards, and so does joint 4. Source: robotics-toolbox-python, models.DH.Cobra600.
+
+    >>> scara().joint_types, scara().M[:3, 3].round(3).tolist()
+    (('revolute', 'revolute', 'prismatic', 'revolute'), [0.6, 0.0, 0.387])
+    """
+    table = dh.Table(
+        a=np.array([325, 275, 0, 0]) / 1000,
+        alpha=[0, np.pi, 0, 0],
+        d=np.array([387, 0, 0, 0]) / 1000,
+        theta=np.zeros(4),
+        joint_types="RRPR",
+    )
+    limits = np.array([*np.radians([(-50, 50), (-88, 88)]), (0, 0.210), np.radians((-360, 360))])
+    return Robot.from_axes(
+        [Z, Z, -Z, -Z],
+        np.array([(0, 0, 387), (325, 0, 387), (600, 0, 387), (600, 0, 387)]) / 1000,
+        _pose(np.diag([1, -1, -1]), (600, 0, 387)),
+        joint_types="RRPR",
+        name="Adept Cobra 600",
+        standard_dh=table,
+        **_limits(limits),
+        home=[*np.radians([-30, 60]), 0.1, 0],
+        source="robotics-toolbox-python, models.DH.Cobra600",
+        discrepancies=(
+            "The toolbox gives no limits of joint 4; 360 deg are customary and were not checked.",
+            "The home pose is this course's own: the toolbox's zero is singular, the arm stretched out.",
+        ),
+    )
+
+
+def stanford() -> Robot:
+    """Stanford arm (Scheinman): two hinges, a slide, three hinges that meet in one point. Practice robot.
+
+    Joint 3 pushes the hand out; theta = 0 lies below its limits. Source: robotics-toolbox-python,
+    models.DH.Stanford, after Stanford AIM-177, figure 2.3.
+
+    >>> stanford().joint_types[2], stanford().M[:3, 3].round(4).tolist()
+    ('prismatic', [0.0, 0.1337, 0.412])
+    """
+    quarter, inch = np.pi / 2, 0.0254
+    table = dh.Table(
+        a=np.array([0, 0, 20.3, 0, 0, 0]) / 1000,
+        alpha=[-quarter, quarter, 0, -quarter, quarter, 0],
+        d=np.array([412, 154, 0, 0, 0, 0]) / 1000,
+        theta=[0, 0, -quarter, 0, 0, 0],
+        joint_types="RRPRRR",
+    )
+    wrist = (0, 154 - 20.3, 412)
+    q_mm = [(0, 0, 412), (0, 154, 412), (0, 154, 412), wrist, wrist, wrist]
+    hinges = np.radians([(-170, 170), (-170, 170), (-170, 170), (-90, 90), (-170, 170)])
+    return Robot.from_axes(
+        [Z, Y, Z, Z, X, Z],
+        np.array(q_mm) / 1000,
+        _pose(np.array([Y, -X, Z]), wrist),
+        joint_types="RRPRRR",
+        name="Stanford arm",
+        standard_dh=table,
+        **_limits(np.insert(hinges, 2, [12 * inch, 50 * inch], axis=0)),
+        home=[0, np.pi / 3, 0.6, 0, np.pi / 4, 0],
+        source="robotics-toolbox-python, models.DH.Stanford, after Stanford AIM-177, figure 2.3",
+        discrepancies=(
+            "The home pose is this course's own: at the toolbox's zero joint 3 would be inside its housing.",
         ),
     )
 

@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from coursekit import Robot, ik, lie, robots
 
-from .conftest import GOLDEN_ROBOTS, load
+from .conftest import SIX_HINGES as SIX
+from .conftest import load
 
-SIX = {full: name for full, name in GOLDEN_ROBOTS.items() if name not in ("franka_panda", "planar_2r")}
 ALL = robots.all()
 RNG = np.random.default_rng(7)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from coursekit import lie, robots
-from tests.kinematics.conftest import GOLDEN_ROBOTS, load
+from tests.kinematics.conftest import GOLDEN_ROBOTS, SIX_HINGES, load
 
 ALL = robots.all()
 AXES_ONLY = {"kuka_kr10_report"}  # robots whose source gives no DH table: theirs is made from the axes
@@ -95,9 +95,7 @@ def test_golden_dh_tables(golden_name, golden):
             assert np.abs(table.base - sheet["base"]).max() <= 1e-14, key
 
 
-@pytest.mark.parametrize(
-    "golden_name", [name for name in GOLDEN_ROBOTS if name not in ("planar_2r", "franka_panda")]
-)
+@pytest.mark.parametrize("golden_name", SIX_HINGES)
 def test_golden_limits(golden_name, golden):
     """Each solution of the golden inverse kinematics is inside its limits or not, whole turns tried."""
     robot, seen = ALL[GOLDEN_ROBOTS[golden_name]], 0

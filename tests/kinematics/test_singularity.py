@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from coursekit import Robot, ik, jacobians, lie, robots, singularity
-from tests.kinematics.conftest import GOLDEN_ROBOTS
+from tests.kinematics.conftest import GOLDEN_ROBOTS, SIX_HINGES
 
 SHAPES = [(), (1,), (3, 1, 2)]
 GOLDEN = {name: robots.all()[key] for name, key in GOLDEN_ROBOTS.items()}
-SIX = {name: robot for name, robot in GOLDEN.items() if robot.n == 6}
+SIX = {name: GOLDEN[name] for name in SIX_HINGES}
 
 
 def random_angles(robot, count=300, seed=0):
