@@ -37,6 +37,7 @@ class Links:
     at_zero   (n + 1, 4, 4) the frames on the axes at theta = 0, then the tool frame, in the space frame
     turns     (n,) whether a joint turns about its axis
     slides    (n,) m per rad (or per m): how far it moves along its axis; 0 for a hinge, 1 for a slide
+    sliding   the joints that do, numbered from 0
     L         (n + 1, 4, 4) L_0 ... L_n
     L_J       (n, 4, 16) L_(i-1) J_i(t) as constants of (1, sin t, cos t, t)
     """
@@ -44,6 +45,7 @@ class Links:
     at_zero: np.ndarray
     turns: np.ndarray
     slides: np.ndarray
+    sliding: tuple[int, ...]
     L: np.ndarray
     L_J: np.ndarray
 
@@ -66,7 +68,8 @@ class Links:
         slides = np.where(np.abs(pitch) < SAME, 0.0, pitch)
         J = [_joint(*how) for how in zip(turns, slides, strict=True)]
         L_J = [(a @ b).reshape(4, 16) for a, b in zip(L[:-1], J, strict=True)]
-        return cls(at_zero, turns, slides, L, np.array(L_J))
+        sliding = tuple(np.flatnonzero(slides).tolist())
+        return cls(at_zero, turns, slides, sliding, L, np.array(L_J))
 
     def along(self, theta: np.ndarray) -> Iterator[np.ndarray]:
         """Walk along the arm. theta (n, N) -> n + 1 frames (4, 3, N): their columns x, y, z and origin.
@@ -101,18 +104,18 @@ class Links:
             T = T @ step
             yield T[:, :3].T
 
-    def screws(self, frames: list[np.ndarray], p: np.ndarray | float = 0.0) -> np.ndarray:
+    def screws(self, frames: list[np.ndarray], p: np.ndarray | None = None) -> np.ndarray:
         """The joints' screws where they are now, read off the frames `along` gave. -> (6, n, N).
 
-        A hinge has (z; (o - p) x z) with z and origin o of its frame, seen from the point p (3, N); a slide
-        has (0; z), a screw of pitch h both: (z; (o - p) x z + h z).
+        A hinge has (z; (o - p) x z) with z and origin o of its frame, seen from the point p (3, N), or from
+        the origin of the space frame; a slide has (0; z), a screw of pitch h both: (z; (o - p) x z + h z).
         """
         J = np.empty((6, len(frames), frames[0].shape[-1]))
         for i, (_, _, z, o) in enumerate(frames):
-            J[:3, i], J[3:, i] = z, cross(o - p, z)
-            if self.slides[i]:
-                J[3:, i] = J[3:, i] * self.turns[i] + self.slides[i] * z
-                J[:3, i] *= self.turns[i]
+            J[:3, i], J[3:, i] = z, cross(o if p is None else o - p, z)
+        for i in self.sliding:
+            along = self.slides[i] * J[:3, i]
+            J[3:, i], J[:3, i] = J[3:, i] * self.turns[i] + along, J[:3, i] * self.turns[i]
         return J
 
 

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from . import checks
 from .robot import Robot
+from .spline import not_a_knot
 
 SPHERE_RADIUS = 0.5  # m
 SPHERE_CENTER = (0.0, 0.0, 0.5)  # m
@@ -106,13 +107,11 @@ def resample(points: ArrayLike, n: int) -> np.ndarray:
     >>> resample([[0, 0, 0], [1, 0, 0], [4, 0, 0]], 5).round(12)[:, 0].tolist()
     [0.0, 1.0, 2.0, 3.0, 4.0]
     """
-    from scipy.interpolate import CubicSpline  # here, because importing scipy takes longer than all the rest
-
     if n < 2:
         raise ValueError(f"n must be at least 2 points, got {n}")
     points = _points(points)
     length = np.append(0.0, np.cumsum(steps(points)))
-    return CubicSpline(length, points)(np.linspace(0.0, length[-1], n))
+    return not_a_knot(length, points, np.linspace(0.0, length[-1], n))
 
 
 def steps(points: ArrayLike) -> np.ndarray:
@@ -265,7 +264,7 @@ def speed_limit(q: ArrayLike, points: ArrayLike, v_max: ArrayLike) -> SpeedLimit
 # -- small steps -------------------------------------------------------------------------------------------
 
 
-def _points(points):
+def _points(points: ArrayLike) -> np.ndarray:
     """points as a float array (m, d) with at least two rows."""
     points = checks.array(points, (), "points")
     if points.ndim != 2 or len(points) < 2:

@@ -323,7 +323,7 @@ class Robot:
         theta = checks.joint_angles(theta, self.n, self.name)
         J = np.empty((theta.size // self.n, 6, self.n))
         for block, (*frames, tool) in self._walks(theta):
-            J[block] = self.links.screws(frames, tool[3] if about_tool else 0.0).transpose(2, 0, 1)
+            J[block] = self.links.screws(frames, tool[3] if about_tool else None).transpose(2, 0, 1)
         return J.reshape(*theta.shape[:-1], 6, self.n)
 
     # -- limits ----------------------------------------------------------------------------------------------

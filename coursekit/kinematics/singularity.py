@@ -241,7 +241,7 @@ def _split(robot):
     """{"wrist", "elbow", "shoulder": _Sinusoid}, or in words why det J does not split like that."""
     if robot.n != 6:
         return f"the arm has {robot.n} joints, not 6"
-    if not np.all(robot.links.turns) or np.any(robot.links.slides):
+    if robot.links.sliding:
         return "its joints are not all hinges"
     w, q = directions_of(robot.S), points_on(robot.S)
     if not parallel(w[1], w[2]):

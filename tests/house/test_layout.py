@@ -28,9 +28,9 @@ ROOMS = {
     "view": ("coursekit.classroom",),
     "classroom": ("coursekit.view",),
 }
-# the mathematics needs numpy alone; the exceptions, and whether they may be imported at the top of the file
+# the mathematics needs numpy alone; the exception
 MATHEMATICS = {"numpy"}
-EXCEPTIONS = {("symbolic", "sympy"): True, ("path", "scipy"): False}
+EXCEPTIONS = {("symbolic", "sympy")}
 
 
 def relative(path):
@@ -106,10 +106,8 @@ def test_rooms_import_only_downwards(path):
 @pytest.mark.parametrize("path", sorted((PACKAGE / "kinematics").rglob("*.py")), ids=relative)
 def test_mathematics_needs_numpy_alone(path):
     topic = path.stem.split("_")[0]
-    for module, at_top in imports_of(path):
-        for name in third_party([(module, at_top)]) - MATHEMATICS:
-            assert (topic, name) in EXCEPTIONS, f"{relative(path)} imports {module}"
-            assert EXCEPTIONS[topic, name] or not at_top, f"{relative(path)} imports {name} before it is used"
+    for name in third_party(imports_of(path)) - MATHEMATICS:
+        assert (topic, name) in EXCEPTIONS, f"{relative(path)} imports {name}"
 
 
 @pytest.mark.parametrize("path", [path for path in SOURCES if path.name != "__main__.py"], ids=relative)

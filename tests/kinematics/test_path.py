@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.interpolate import CubicSpline
 
 from coursekit import lie, path, robots, rotations
+from coursekit.kinematics import spline
 
 EXACT = 1e-11  # golden points, frames and branches are rounded to 12 decimals
 BOUND = 2.0  # rad/s, the bound of the RPI mini project for every joint
@@ -90,6 +92,31 @@ def test_resampling_a_circle_keeps_to_it():
     assert np.ptp(path.steps(points)) <= 1e-4
     assert np.array_equal(points[0], circle[0])
     assert np.abs(points[-1] - circle[-1]).max() <= 1e-14
+
+
+@pytest.mark.parametrize("m", [2, 3, 4, 5, 17, 400])
+def test_the_spline_is_scipys(m):
+    rng = np.random.default_rng(m)
+    x = np.cumsum(rng.uniform(0.01, 1, m) ** 3) - 1  # steps from 1e-6 to 1
+    y = rng.normal(size=(m, 3))
+    at = np.concatenate([np.linspace(x[0], x[-1], 500), x])
+    expected = CubicSpline(x, y)(at)
+    assert np.abs(spline.not_a_knot(x, y, at) - expected).max() <= 1e-11 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("degree", range(4))
+def test_a_cubic_is_its_own_spline(degree):
+    x = np.array([0, 0.3, 1, 1.1, 2.5, 4])
+    at = np.linspace(0, 4, 50)
+    assert np.abs(spline.not_a_knot(x, x[:, None] ** degree, at)[:, 0] - at**degree).max() <= 1e-13
+
+
+def test_resampling_a_letter_is_what_scipy_makes_of_it():
+    letter = np.random.default_rng(1).uniform(-0.3, 0.3, (9, 2))
+    points = path.on_sphere(letter)
+    length = np.append(0, np.cumsum(path.steps(points)))
+    expected = CubicSpline(length, points)(np.linspace(0, length[-1], 301))
+    assert np.abs(path.resample(points, 301) - expected).max() <= 1e-14
 
 
 # -- a curve of your own --

@@ -184,7 +184,7 @@ def look(robot: Robot, theta: np.ndarray, goal: np.ndarray | list) -> tuple:
     *frames, tool = (frame[:, :, 0].tolist() for frame in robot.links.along(theta[:, None]))
     # Links.screws in plain numbers: column i of J is (z; (o - p) x z), (0; z) where it slides
     J = np.array([[*z, *cross(_minus(o, tool[3]), z)] for _, _, z, o in frames])
-    for i in np.flatnonzero(robot.links.slides):
+    for i in robot.links.sliding:
         turns, along = robot.links.turns[i], robot.links.slides[i] * J[i, :3]
         J[i, 3:], J[i, :3] = J[i, 3:] * turns + along, J[i, :3] * turns
     return J, *_error(tool, goal, math)
