@@ -125,6 +125,35 @@ def test_one_and_many_go_the_same_way():
             assert np.allclose(one.theta, many.theta[i], atol=1e-6)
 
 
+@pytest.mark.parametrize("name", ["kuka_kr6", "franka_panda", "ur5", "scara", "stanford"])
+@pytest.mark.parametrize("method", ["newton", "damped", "transpose"])
+def test_the_engine_goes_the_way_of_the_plain_loop(method, name):
+    """Step by step from the same guess: where the book's loop is, the fast one is, alone and in a batch."""
+    robot = ALL[name]
+    theta = robot.home + RNG.uniform(-0.2, 0.2, robot.n)
+    T, guess = robot.fk(theta), theta + RNG.uniform(-0.1, 0.1, robot.n)
+    step, fast = {
+        "newton": (ik.newton_step, ik.newton),
+        "damped": (
+            lambda J, e: ik.dls_step(J, e, 0.05),
+            lambda *a, **k: ik.damped_least_squares(*a, damping=0.05, **k),
+        ),
+        "transpose": (
+            lambda J, e: ik.transpose_step(J, e, 0.3),
+            lambda *a, **k: ik.transpose(*a, gain=0.3, **k),
+        ),
+    }[method]
+    one = fast(robot, T, guess, max_iterations=12, tol=1e-9)
+    for k, seen in enumerate(one.history):
+        plain, count = ik.by_the_book(robot, T, guess, step, max_iterations=k, tol=1e-9)
+        assert count == k and np.abs(plain - seen.theta).max() < 1e-9
+    assert ik.by_the_book(robot, T, guess, step, 12, 1e-9)[1] == one.iterations
+    many = fast(robot, np.tile(T, (3, 1, 1)), guess, max_iterations=12, tol=1e-9)
+    assert many.iterations.tolist() == [one.iterations] * 3
+    if one.converged:
+        assert np.abs(many.theta - one.theta).max() < 1e-9
+
+
 def test_tables_of_the_kuka_report():
     robot, numbers = ALL["kuka_kr6"], load("numbers_of_the_sources")["TPK4170 report"]
     T = robot.fk([2, -1, -1, 2.5, 0.6, 0])
@@ -146,6 +175,18 @@ def test_from_home_most_targets_are_reached_and_all_with_restarts():
     assert np.abs(robot.fk(again.theta) - T).max() < 1e-9
     at_once = once.converged & (once.iterations <= 20)
     assert np.array_equal(again.theta[at_once], once.theta[at_once])
+
+
+def test_singular_targets_are_solved_one_by_one_and_together():
+    """At a singular solution J J^T has no inverse; damping in proportion to the error gives it none."""
+    robot = ALL["kuka_kr6"]
+    theta = RNG.uniform(-1, 1, (200, 6))
+    theta[:, 4] = 0
+    T = robot.fk(theta)
+    found = ik.damped_least_squares(robot, T, theta + 0.1, restarts=3)
+    assert found.converged.mean() > 0.95
+    assert np.abs(robot.fk(found.theta) - T)[found.converged].max() < 1e-9
+    assert all(np.isfinite(ik.damped_least_squares(robot, T[i], theta[i]).theta).all() for i in range(20))
 
 
 def test_restarts_are_reproducible():
