@@ -12,7 +12,7 @@ row down. Sources: Siciliano et al. (2010), eqs. 2.51-2.52; Lynch & Park (2017),
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -230,8 +230,8 @@ def from_axes(
     w, q, M, types = axes_of_arm(w, q, M, joint_types, "dh.from_axes")
     base, rows = procedure(w, q, M)
     a, alpha, d, theta = np.array([(row.a, row.alpha, row.d, row.theta) for row in rows]).T
-    table = Table(a, alpha, d, theta, "standard", types, base)
-    table = replace(table, tool=lie.inverse(table.fk(np.zeros(table.n))) @ M)
+    to_last_frame = Table(a, alpha, d, theta, "standard", types, base).fk(np.zeros(len(rows)))
+    table = Table(a, alpha, d, theta, "standard", types, base, tool=lie.inverse(to_last_frame) @ M)
     if convention not in CONVENTIONS:
         raise ValueError(f"convention must be one of {CONVENTIONS}, got {convention!r}")
     return table if convention == "standard" else table.to_modified()

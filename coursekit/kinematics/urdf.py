@@ -124,8 +124,8 @@ def chain(robot: Element, tip: str | None) -> list[Element]:
     parents = {parent for _, parent in carrier.values()}
     ends = [link for link in links if link not in parents]
     if tip is None and len(ends) != 1:
-        many = f"{robot} has {len(ends)} ends"
-        raise ValueError(f"{many}: say which link is the tip, one of {', '.join(ends or links)}")
+        which = f"say which link is the tip, one of {', '.join(ends or links)}" if links else "it has no link"
+        raise ValueError(f"{robot} has {len(ends)} ends: {which}")
     tip = ends[0] if tip is None else tip
     if tip not in links:
         raise ValueError(f"{robot} has no link {tip!r}; it has: {', '.join(links)}")

@@ -9,6 +9,7 @@ import sys
 
 import pytest
 
+from coursekit import robots
 from coursekit.classroom import locked
 from coursekit.classroom.box import bubblewrap
 from coursekit.classroom.course import the_course
@@ -54,6 +55,17 @@ def probed(tmp_path_factory):
 def test_allowed_works_and_everything_else_raises(probed):
     assert probed[:2] == ["works", "works"]
     assert probed[2:7] == ["LibraryLocked"] * 5
+
+
+def test_every_robot_can_be_made_where_answers_are_locked(tmp_path):
+    """An exercise may hand over any arm, also one whose tables are made from its axes, and its fk."""
+    locked.write_files(locked.locked_files(("robots", "robot.Robot.fk")), tmp_path)
+    code = "from coursekit import robots\nfor arm in robots.all().values(): print(arm.fk(arm.home).shape)"
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    run = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, cwd=tmp_path
+    )
+    assert run.stdout.splitlines() == ["(4, 4)"] * len(robots.all()), run.stderr
 
 
 def test_view_and_check_do_nothing(probed):
