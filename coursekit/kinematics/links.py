@@ -10,15 +10,31 @@ last one is the tool. Modified DH is the same walk with four numbers for each L_
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from . import lie
+from . import checks, dh, lie
 from .axes import SAME, cross, directions_of, foot, points_on, rotation_to
 
 FEW = 100  # configurations; for fewer, numpy's calls cost more than the arithmetic
+
+
+def joint_types_of(S: np.ndarray, given: Iterable[str] | None, name: str) -> tuple[str, ...]:
+    """The joint types that the screws S (6, n) themselves say, n words; `given` (or None) must agree."""
+    length, speed = np.linalg.norm(S[:3], axis=0), np.linalg.norm(S[3:], axis=0)
+    for i in range(S.shape[1]):
+        if length[i] == 0 and speed[i] == 0:
+            raise ValueError(f"{name}: screw {i + 1} has direction zero: (omega; v) = 0 moves nothing")
+        size, part = (speed[i], "|v|") if length[i] == 0 else (length[i], "|omega|")
+        if abs(size - 1) > checks.UNIT:
+            raise ValueError(f"{name}: screw {i + 1} must have {part} = 1, got {size:.6g}")
+    said = tuple("prismatic" if w == 0 else "revolute" for w in length)
+    given = dh.joint_types(given, S.shape[1]) if given is not None else said
+    if given != said:
+        raise ValueError(f"{name}: joint_types say {given}, but the screws in S are {said}")
+    return said
 
 
 def places_on(S: np.ndarray) -> np.ndarray:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import axes, checks, dh, lie
-from .links import Links, places_on
+from .links import Links, joint_types_of, places_on
 
 CHUNK = 2048  # configurations per block: keeps the working set of a large batch in the cache
 AT_LIMIT = 1e-9  # rad or m beyond a limit that still count as inside: rounding of an angle that was computed
@@ -107,28 +107,31 @@ class Robot:
         self._store("S", S, (6, n))
         self._store("M", checks.pose(self.M, f"{self.name}: M"), (4, 4))
         self._store("B", lie.adjoint(lie.inverse(self.M)) @ S, (6, n))
-        object.__setattr__(self, "joint_types", _joint_types(S, self.joint_types, self.name))
+        object.__setattr__(self, "joint_types", joint_types_of(S, self.joint_types, self.name))
         self._place()
 
     def _place(self):
         """Tables and places follow from each other, where only one of them is given; links from both."""
-        zero, places = np.zeros(self.n), self.places
+        zero, w, q = np.zeros(self.n), axes.directions_of(self.S), axes.points_on(self.S)
         tables = [table for table in (self.standard_dh, self.modified_dh) if table is not None]
         for table in tables:
             complaint = table.disagreement(self.S, self.M)
             if complaint:
                 raise ValueError(f"{self.name}: {complaint}")
+        places = self.places
         if places is None:
             places = tables[-1].to_modified().frames(zero)[:, :3, 3] if tables else places_on(self.S)
         self._store("places", places, (self.n, 3))
-        has_pitch = np.abs((self.S[:3] * self.S[3:]).sum(axis=0)) > axes.SAME
-        if not tables and not np.any(has_pitch):
-            w = axes.directions_of(self.S)
+        off = np.linalg.norm(np.cross(self.places - q, w), axis=1) * np.any(self.S[:3], axis=0)
+        if off.max() > checks.POSE_TOLERANCE:
+            raise ValueError(f"{self.name}: place {off.argmax() + 1} is {off.max():.3g} m beside its axis")
+        if not tables and np.all(np.abs((self.S[:3] * self.S[3:]).sum(axis=0)) < axes.SAME):
             tables = [dh.from_axes(w, self.places, self.M, self.joint_types)]
-        x = tables[-1].to_modified().frames(zero)[:, :3, 0].round(15) if tables else None
+        x = None
         if tables:
             object.__setattr__(self, "standard_dh", tables[0].to_standard())
             object.__setattr__(self, "modified_dh", tables[-1].to_modified())
+            x = self.modified_dh.frames(zero)[:, :3, 0].round(15)  # a quarter turn is then exactly one
         object.__setattr__(self, "links", Links.between(self.S, self.M, self.places, x))
 
     def _store(self, key, value, shape):
@@ -163,7 +166,8 @@ class Robot:
         """From what one reads off a drawing: directions w (n, 3) and points q (n, 3) on the axes, metres.
 
         A revolute joint gets S = (w; -w x q), a prismatic one S = (0; w). Directions are scaled to length 1.
-        Raises ValueError where a direction has length zero.
+        The points are the joints' `places`: frames and pictures have them there, unless a DH table is given,
+        which says it for itself. Raises ValueError where a direction has length zero.
 
         >>> robot = Robot.from_axes([[0, 0, 2]], [[1, 0, 0]], np.eye(4))
         >>> robot.S[:, 0].tolist()
@@ -172,8 +176,8 @@ class Robot:
         w, q, M, types = dh.axes_of_arm(w, q, M, joint_types, more.get("name", "robot"))
         slides = np.array([kind == "prismatic" for kind in types])[:, None]
         S = np.hstack([np.where(slides, 0.0, w), np.where(slides, w, -np.cross(w, q))]).T + 0.0  # no -0
-        if not {"places", "standard_dh", "modified_dh"} & set(more):
-            more["places"] = q
+        if more.get("standard_dh") is None and more.get("modified_dh") is None:
+            more.setdefault("places", q)
         return cls(S, M, joint_types=types, **more)
 
     @classmethod
@@ -368,19 +372,3 @@ def _identities(batch):
     T = np.empty((*batch, 4, 4))
     T[..., 3, :] = 0, 0, 0, 1
     return T
-
-
-def _joint_types(S, given, name):
-    """The joint types that the screws S (6, n) themselves say, n words; `given` (or None) must agree."""
-    length, speed = np.linalg.norm(S[:3], axis=0), np.linalg.norm(S[3:], axis=0)
-    for i in range(S.shape[1]):
-        if length[i] == 0 and speed[i] == 0:
-            raise ValueError(f"{name}: screw {i + 1} has direction zero: (omega; v) = 0 moves nothing")
-        size, part = (speed[i], "|v|") if length[i] == 0 else (length[i], "|omega|")
-        if abs(size - 1) > checks.UNIT:
-            raise ValueError(f"{name}: screw {i + 1} must have {part} = 1, got {size:.6g}")
-    said = tuple("prismatic" if w == 0 else "revolute" for w in length)
-    given = dh.joint_types(given, S.shape[1]) if given is not None else said
-    if given != said:
-        raise ValueError(f"{name}: joint_types say {given}, but the screws in S are {said}")
-    return said

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
-from coursekit import lie, path, robots, rotations
+from coursekit import ik, lie, path, robots, rotations
 from coursekit.kinematics import spline
 
 EXACT = 1e-11  # golden points, frames and branches are rounded to 12 decimals
@@ -165,6 +165,42 @@ def test_unreadable_curves_name_the_line(text, message):
 
 
 # -- following it --
+
+
+def test_tracing_goes_where_the_closed_form_goes(branches):
+    T = path.frames(path.s_curve(101))
+    start = branches[101][:, 0]
+    q = path.trace(ABB, T, start + 0.05)
+    assert np.abs(q - branches[101]).max() < 1e-8
+    found = ik.search(ABB, T[0]).theta
+    assert path.trace(ABB, T, found).shape == (8, 101, 6)
+    assert np.abs(path.trace(ABB, T, start[3]) - q[3]).max() < 1e-8
+
+
+def test_a_redundant_arm_comes_back_with_other_angles():
+    """A circle of 0.1 m with the Panda: the tool is exact, the joints have drifted after a lap."""
+    panda = robots.franka_panda()
+    home = panda.fk(panda.home)
+    T = np.tile(home, (200, 1, 1))
+    turn = np.linspace(0, 2 * np.pi, 200)
+    T[:, 1, 3] += 0.1 * np.sin(turn)
+    T[:, 2, 3] += 0.1 * (1 - np.cos(turn))
+    q = path.trace(panda, T, panda.home)
+    assert np.abs(panda.fk(q) - T).max() < 1e-9
+    assert np.abs(np.diff(q, axis=0)).max() < 0.05
+    assert 0.01 < np.abs(q[-1] - q[0]).max() < 0.5
+
+
+def test_a_path_of_one_pose_is_its_solutions():
+    T = path.frames(path.s_curve(21))[:1]
+    assert np.array_equal(path.follow(ABB, T)[:, 0], ik.analytic(ABB, T[0]).theta, equal_nan=True)
+
+
+def test_tracing_ends_where_the_arm_does():
+    T = path.frames(path.s_curve(21))
+    T[11:, :3, 3] *= 3
+    q = path.trace(ABB, T, path.follow(ABB, T[:1])[:, 0])
+    assert path.points_reached(q).tolist() == [11] * 8
 
 
 def test_golden_branches(branches, golden):

@@ -170,6 +170,13 @@ def test_screws_have_no_places_but_the_nearest():
     assert np.abs(placed.link_frames(theta) - robot.link_frames(theta)).max() < 1e-15
 
 
+def test_a_place_beside_its_axis_is_refused():
+    with pytest.raises(ValueError, match=r"Nemo: place 2 is 0\.1 m beside its axis"):
+        Robot.from_axes(**SCARA, places=[*SCARA["q"][:1], [0.325, 0.1, 0.7], *SCARA["q"][2:]], name="Nemo")
+    slid = Robot.from_axes(**SCARA, places=[*SCARA["q"][:2], [0.6, 0.1, 0.7], SCARA["q"][3]])
+    assert slid.places[2].tolist() == [0.6, 0.1, 0.7]  # a slide stands anywhere
+
+
 def test_a_table_says_where_its_joints_stand():
     table = dh.Table([0.325, 0.275, 0, 0], [0, np.pi, 0, 0], [0.4, 0, 0.1, 0], [0] * 4, joint_types="RRPR")
     robot = Robot.from_dh(table)
