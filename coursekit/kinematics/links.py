@@ -120,19 +120,21 @@ class Links:
             T = T @ step
             yield T[:, :3].T
 
-    def screws(self, frames: list[np.ndarray], p: np.ndarray | None = None) -> np.ndarray:
-        """The joints' screws where they are now, read off the frames `along` gave. -> (6, n, N).
+    def screws(self, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The joints' screws where they are now, (6, n, N), and the tool frame (4, 3, N). theta (n, N).
 
-        A hinge has (z; (o - p) x z) with z and origin o of its frame, seen from the point p (3, N), or from
-        the origin of the space frame; a slide has (0; z), a screw of pitch h both: (z; (o - p) x z + h z).
+        A hinge has (z; o x z) with z and origin o of its frame; a slide (0; z), a screw of pitch h both:
+        (z; o x z + h z).
         """
-        J = np.empty((6, len(frames), frames[0].shape[-1]))
-        for i, (_, _, z, o) in enumerate(frames):
-            J[:3, i], J[3:, i] = z, cross(o if p is None else o - p, z)
+        J = np.empty((6, *theta.shape))
+        for i, frame in enumerate(self.along(theta)):
+            if i < len(theta):  # the last is the tool's
+                _, _, z, o = frame
+                J[:3, i], J[3:, i] = z, cross(o, z)
         for i in self.sliding:
             along = self.slides[i] * J[:3, i]
             J[3:, i], J[:3, i] = J[3:, i] * self.turns[i] + along, J[:3, i] * self.turns[i]
-        return J
+        return J, frame
 
 
 def _joint(turns, slides):

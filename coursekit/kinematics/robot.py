@@ -5,6 +5,7 @@ T(theta) = e^[S_1]theta_1 ... e^[S_n]theta_n M      (Lynch & Park, eq. 4.14)
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -259,7 +260,8 @@ class Robot:
         """
         theta = checks.joint_angles(theta, self.n, self.name)
         T = _identities((theta.size // self.n,))
-        for block, (*_, tool) in self._walks(theta):
+        for block, angles in self._blocks(theta):
+            tool = deque(self.links.along(angles), maxlen=1).pop()  # the others would only fill the cache
             T[block, :3] = tool.T
         return T.reshape(*theta.shape[:-1], 4, 4)
 
@@ -272,8 +274,8 @@ class Robot:
         """
         theta = checks.joint_angles(theta, self.n, self.name)
         F = _identities((theta.size // self.n, self.n))
-        for block, frames in self._walks(theta):
-            for i, frame in enumerate(frames):
+        for block, angles in self._blocks(theta):
+            for i, frame in enumerate(self.links.along(angles)):
                 F[block, min(i, self.n - 1), :3] = frame.T  # in the last place the tool follows joint n
         return F.reshape(*theta.shape[:-1], self.n, 4, 4)
 
@@ -286,12 +288,12 @@ class Robot:
         at_zero[-1] = self.M
         return self.link_frames(theta) @ lie.inverse(at_zero)
 
-    def _walks(self, theta: np.ndarray) -> Iterator[tuple[slice, Iterator[np.ndarray]]]:
-        """theta (..., n) in blocks: which configurations each holds, and their walk along the arm."""
+    def _blocks(self, theta: np.ndarray) -> Iterator[tuple[slice, np.ndarray]]:
+        """theta (..., n) in blocks that fit the cache: which configurations, and their angles (n, N)."""
         flat = theta.reshape(-1, self.n)
         for start in range(0, len(flat), CHUNK):
             block = slice(start, start + CHUNK)
-            yield block, self.links.along(flat[block].T)
+            yield block, flat[block].T
 
     # -- Jacobians -------------------------------------------------------------------------------------------
 
@@ -326,8 +328,11 @@ class Robot:
         """The joints' screws where they are now, seen from the origin or from the tool point."""
         theta = checks.joint_angles(theta, self.n, self.name)
         J = np.empty((theta.size // self.n, 6, self.n))
-        for block, (*frames, tool) in self._walks(theta):
-            J[block] = self.links.screws(frames, tool[3] if about_tool else None).transpose(2, 0, 1)
+        for block, angles in self._blocks(theta):
+            screws, (_, _, _, p) = self.links.screws(angles)
+            if about_tool:  # v = v_s + w x p
+                screws[3:] += axes.cross(screws[:3], p[:, None])
+            J[block] = screws.transpose(2, 0, 1)
         return J.reshape(*theta.shape[:-1], 6, self.n)
 
     # -- limits ----------------------------------------------------------------------------------------------

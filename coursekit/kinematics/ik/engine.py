@@ -179,11 +179,11 @@ def look(robot: Robot, theta: np.ndarray, goal: np.ndarray | list) -> tuple:
     arrays (N,) become plain numbers: the formulas are the same, `math` takes the place of numpy.
     """
     if theta.ndim == 2:
-        *frames, tool = robot.links.along(theta.T)
-        J = np.ascontiguousarray(robot.links.screws(frames, tool[3]).T)
-        return J, *_error(tool, goal, np)
+        J, tool = robot.links.screws(theta.T)
+        J[3:] += cross(J[:3], tool[3][:, None])
+        return np.ascontiguousarray(J.T), *_error(tool, goal, np)
     *frames, tool = (frame[:, :, 0].tolist() for frame in robot.links.along(theta[:, None]))
-    # Links.screws in plain numbers: column i of J is (z; (o - p) x z), (0; z) where it slides
+    # the same in plain numbers: column i of J is (z; (o - p) x z), (0; z) where it slides
     J = np.array([[*z, *cross(_minus(o, tool[3]), z)] for _, _, z, o in frames])
     for i in robot.links.sliding:
         turns, along = robot.links.turns[i], robot.links.slides[i] * J[i, :3]

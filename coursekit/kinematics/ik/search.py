@@ -16,9 +16,7 @@ from ..robot import Robot
 from .engine import closest
 from .iteration import check_settings
 
-SAME_SOLUTION = (
-    1e-3  # rad or m in every joint; near singular poses ends scatter up to the root of the tolerance
-)
+SAME_SOLUTION = 1e-3  # rad or m in every joint; at singular poses ends scatter by the root of the tolerance
 STUCK = 1e-6  # smallest singular value of J_b; below it the joints can move while the tool rests
 STROKE = 1.0  # m; how far from home a slide without limits is started
 
