@@ -30,9 +30,9 @@ ROOMS = {
 }
 # where the classroom shows what a wrong answer looks like
 MAY_DRAW = {"coursekit/classroom/picture.py"}
-# the mathematics needs numpy alone; the exceptions, and whether they may be imported at the top of the file
+# the mathematics needs numpy alone; the exception
 MATHEMATICS = {"numpy"}
-EXCEPTIONS = {("symbolic", "sympy"): True, ("path", "scipy"): False}
+EXCEPTIONS = {("symbolic", "sympy")}
 
 
 def relative(path):
@@ -105,13 +105,11 @@ def test_rooms_import_only_downwards(path):
     assert not upwards, f"{relative(path)} imports {upwards}, from a room that does not stand below it"
 
 
-@pytest.mark.parametrize("path", sorted((PACKAGE / "kinematics").glob("*.py")), ids=relative)
+@pytest.mark.parametrize("path", sorted((PACKAGE / "kinematics").rglob("*.py")), ids=relative)
 def test_mathematics_needs_numpy_alone(path):
     topic = path.stem.split("_")[0]
-    for module, at_top in imports_of(path):
-        for name in third_party([(module, at_top)]) - MATHEMATICS:
-            assert (topic, name) in EXCEPTIONS, f"{relative(path)} imports {module}"
-            assert EXCEPTIONS[topic, name] or not at_top, f"{relative(path)} imports {name} before it is used"
+    for name in third_party(imports_of(path)) - MATHEMATICS:
+        assert (topic, name) in EXCEPTIONS, f"{relative(path)} imports {name}"
 
 
 @pytest.mark.parametrize("path", [path for path in SOURCES if path.name != "__main__.py"], ids=relative)

@@ -6,10 +6,10 @@ import pytest
 
 from coursekit import Robot, robots, singularity, view
 from coursekit.view.explorers import singularities
-from tests.kinematics.conftest import GOLDEN_ROBOTS, load
+from tests.kinematics.conftest import GOLDEN_ROBOTS, SIX_HINGES, load
 
 KR6 = robots.kuka_kr6()
-SIX = [key for key, robot in robots.all().items() if robot.n == 6]
+SIX = list(SIX_HINGES.values())
 
 
 @pytest.fixture(scope="module")

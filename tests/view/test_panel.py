@@ -191,7 +191,13 @@ def test_reset_goes_back_and_keeps_the_chosen_robot(made):
 def test_every_arm_can_be_explored_and_its_conventions_agree(made, name):
     robot = robots.all()[name]
     panel = made(view.explore(robot))
-    panel.set(theta=robot.home * 0.5, standard=True, modified=True, screws=True, skeleton=True)
+    panel.set(
+        theta=np.clip(robot.home * 0.5, robot.q_min, robot.q_max),
+        standard=True,
+        modified=True,
+        screws=True,
+        skeleton=True,
+    )
     if robot.standard_dh is None and robot.modified_dh is None:
         assert "no DH table" in panel.line.value
     else:
