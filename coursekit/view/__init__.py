@@ -29,9 +29,11 @@ _WHERE = {
     "Toggle": "controls",
     "Action": "controls",
     "Plot": "plots",
+    "png": "picture",
+    "to_html": "page",
     "Table": "controls",
 }
-_MODULES = ("controls", "panel", "page", "plots", "scene", "text", "viewer")
+_MODULES = ("controls", "meshcat", "page", "panel", "picture", "plots", "scene", "text", "viewer")
 
 __all__ = sorted([*_WHERE, *_MODULES])
 

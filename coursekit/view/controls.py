@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import anywidget
 import numpy as np
@@ -21,19 +21,16 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
 
-if TYPE_CHECKING:
-    from coursekit.view.panel import Panel  # which imports this module
-
-_STATIC = Path(__file__).parent / "static"
-_SCRIPT = (_STATIC / "controls.js").read_text(encoding="utf-8")
+STATIC = Path(__file__).parent / "static"
+SCRIPT = (STATIC / "controls.js").read_text(encoding="utf-8")
 _SHOWN_PER_SI = {"deg": 180 / np.pi, "mm": 1000.0}  # every other unit is shown as it is
 
 
 class Control(anywidget.AnyWidget):
     """What all controls share: a name, a label and a stable one-line repr."""
 
-    _esm = _SCRIPT
-    _css = _STATIC / "controls.css"
+    _esm = SCRIPT
+    _css = STATIC / "controls.css"
     kind = traitlets.Unicode().tag(sync=True)
     label = traitlets.Unicode().tag(sync=True)
     kind_name: str
@@ -292,13 +289,11 @@ class Toggle(Control):
 
 
 class Action(Control):
-    """A button; `act(panel)` is called under the panel's lock, then the panel is drawn again."""
+    """A button; `act()` is called under the panel's lock, then the panel is drawn again."""
 
     kind_name = "action"
 
-    def __init__(
-        self, name: str, label: str | None = None, act: Callable[[Panel], None] | None = None
-    ) -> None:
+    def __init__(self, name: str, label: str | None = None, act: Callable[[], None] | None = None) -> None:
         self.act = act
         super().__init__(name, label)
 

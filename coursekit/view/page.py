@@ -4,7 +4,9 @@ import base64
 import html
 import json
 
-from coursekit.view import viewer as viewer_module
+from coursekit.view import meshcat
+from coursekit.view.panel import Panel
+from coursekit.view.viewer import STATIC, Viewer, script
 
 _PAGE = """<!DOCTYPE html>
 <html lang="en">
@@ -50,23 +52,31 @@ receiveBundle(unpack("{bundle}"));
 """
 
 
-def standalone(viewer: viewer_module.Viewer) -> str:
-    """The page of a Viewer as it stands now (its pose, its motion), about 400 KB, as one string."""
+def to_html(shown: Panel | Viewer) -> str:
+    """A Panel or a Viewer as it stands now (its pose, its motion) as one page of about 400 KB: its text.
+
+    >>> from coursekit import robots, view
+    >>> panel = view.explore(robots.planar_2r())
+    >>> view.to_html(panel)[:15]
+    '<!DOCTYPE html>'
+    >>> panel.close()
+    """
+    viewer = shown.viewer if isinstance(shown, Panel) else shown
     names = ("labels", "ghosts", "moving", "camera", "views", "description")
     state = {name: getattr(viewer, name) for name in names}
     state |= {"motion": viewer.motion, "motion_texts": viewer.motion_texts, "frame": viewer.frame}
     state |= {"quality": viewer.quality, "height": viewer.height}
     binary = {"pose": viewer.pose, "motion_poses": viewer.motion_poses}
     state |= {name: _base64(data) for name, data in binary.items()}
-    state["commands"] = {key: _base64(data) for key, data in viewer._packed.items()}
+    state["commands"] = {key: _base64(data) for key, data in viewer.messages.packed.items()}
     return _PAGE.format(
         title=html.escape(viewer.scene.text().split(":")[0]),
         description=html.escape(viewer.scene.text()),
-        css=(viewer_module._STATIC / "viewer.css").read_text(encoding="utf-8"),
-        script=viewer_module.script().replace("export default function", "function makeWidget"),
+        css=(STATIC / "viewer.css").read_text(encoding="utf-8"),
+        script=script().replace("export default function", "function makeWidget"),
         state=json.dumps(state).replace("</", "<\\/"),
         binary=json.dumps(list(binary)),
-        bundle=_base64(viewer_module.bundle()),
+        bundle=_base64(meshcat.bundle()),
     )
 
 

@@ -6,11 +6,12 @@
 
     def explore_reach(robot):
         scene = Scene()
-        scene.robot(robot, robot.home)
+        arm = scene.robot(robot, robot.home)
+        tool = scene.frame(arm.link(robot.n) + "/tool", robot.M, "tool")
 
         def update(values):                       # called at every change, before the picture is sent
-            scene.set_theta("robot", values["theta"])
-            scene.show("/ck/robot/tool", values["tool"])
+            arm.theta = values["theta"]
+            tool.show(values["tool"])
 
         def text(values):                         # the line below the picture: numbers for everyone
             x, y, z = robot.fk(values["theta"])[:3, 3]
@@ -80,7 +81,7 @@ class Panel(ipywidgets.VBox):
         self._update = update
         self._text = text
         self._lock = threading.RLock()
-        self._quiet = False
+        self._quiet, self._was_put = False, False
         self._stale: list = []  # plots that wait until a drag ends
         self._controls = {
             control.name: control for control in (*controls, *below) if hasattr(control, "name")
@@ -88,11 +89,10 @@ class Panel(ipywidgets.VBox):
         if len(self._controls) < len(controls):
             raise ValueError(f"panel {name!r}: two controls have the same name")
 
-        if update is not None:
-            update(self.values)
+        values = self._updated()
         self.viewer = Viewer(scene, height=height, quality=quality)
         self.line = parts.TextLine("text")
-        self.line.value = self._words()
+        self.line.value = self._words(values)
         super().__init__(layout=ipywidgets.Layout(width="100%"))
         column = self._column(controls)
         self.viewer.layout.flex, self.viewer.layout.min_width = "4 1 420px", "300px"
@@ -102,7 +102,7 @@ class Panel(ipywidgets.VBox):
         top = ipywidgets.Box([*([column] if controls else []), self.viewer], layout=flow)
         self.children = [top, self.line, *self._bottom()]
         for output in self.below:
-            output.refresh(self.values) if hasattr(output, "refresh") else None
+            output.refresh(values) if hasattr(output, "refresh") else None
         for control in self._widgets():
             self._listen(control)
         self._replace_previous()
@@ -112,7 +112,8 @@ class Panel(ipywidgets.VBox):
     @property
     def values(self) -> dict[str, Any]:
         """Name -> value of every control, in radians and metres."""
-        return {name: control.get() for name, control in self._controls.items() if control.get() is not None}
+        found = {name: control.get() for name, control in self._controls.items()}
+        return {name: value for name, value in found.items() if value is not None}
 
     def set(self, **values: Any) -> None:
         """Set controls from the program: one update for all of them, exactly these values.
@@ -140,13 +141,9 @@ class Panel(ipywidgets.VBox):
         """Update scene, text and plots from the controls; `live`: more values will follow at once."""
         with self._lock:
             try:
-                values = self.values
-                with self._silence():  # what update puts into controls is part of this update
-                    if self._update is not None:
-                        self._update(values)
-                        values = self.values
+                values = self._updated()
                 self.viewer.sync(self.scene)
-                self.line.value = self._words()
+                self.line.value = self._words(values)
                 for output in self.below:
                     if live and hasattr(output, "has_time") and not output.has_time():
                         if output not in self._stale:
@@ -183,22 +180,18 @@ class Panel(ipywidgets.VBox):
         """Play joint values (N, n) of the robot `name`; the scene itself stays as it is.
 
         follow : function(theta), optional
-            Moves what goes with the arm (`Scene.move`), for one configuration.
+            Moves what goes with the arm (by its handle), for one configuration.
         """
         with self._lock:
-            before, poses = self.scene.theta(name), []
-            for theta in (*np.asarray(thetas, float), before):
-                self.scene.set_theta(name, theta)
+            arm, poses = self.scene.robots[name], []
+            for theta in (*np.asarray(thetas, float), arm.theta):
+                arm.theta = theta
                 if follow is not None:
                     follow(theta)
                 poses.append(self.scene.pose())
             self.viewer.play(np.array(poses[:-1]), fps, loop, texts, autoplay)
 
     # -- what a notebook stores
-
-    def to_html(self) -> str:
-        """The scene as a page that needs neither kernel nor network, as one string."""
-        return self.viewer.to_html()
 
     def __repr__(self) -> str:
         return f"{self.title}: {'closed' if self.scene is None else self.scene.text()}"
@@ -229,7 +222,7 @@ class Panel(ipywidgets.VBox):
                 control.layout.width = "auto"
             else:
                 rows += control.sliders if isinstance(control, parts.Sliders) else [control]
-        reset = parts.Action("reset", act=lambda panel: panel.reset())
+        reset = parts.Action("reset", act=self.reset)
         reset.layout.width = "auto"
         flow = ipywidgets.Layout(display="flex", flex_flow="row wrap", grid_gap="2px 14px", width="100%")
         self._reset_button = reset
@@ -248,8 +241,16 @@ class Panel(ipywidgets.VBox):
         )
         return [ipywidgets.Box(self.below, layout=flow)]
 
-    def _words(self):
-        return self._text(self.values) if self._text is not None else self.scene.text()
+    def _updated(self):
+        """The values, once the scene shows them; read again where `update` put something into a control."""
+        values, self._was_put = self.values, False
+        with self._silence():
+            if self._update is not None:
+                self._update(values)
+        return self.values if self._was_put else values
+
+    def _words(self, values):
+        return self._text(values) if self._text is not None else self.scene.text()
 
     def _widgets(self):
         for control in self._controls.values():
@@ -268,6 +269,7 @@ class Panel(ipywidgets.VBox):
 
     def _value_changed(self, change):
         with self._lock:
+            self._was_put = True
             if not self._quiet:
                 self.refresh(live=getattr(change.owner, "live", False))
 
@@ -280,7 +282,7 @@ class Panel(ipywidgets.VBox):
         with self._lock:
             if content.get("type") == "press" and widget.act is not None:
                 with self._silence():
-                    widget.act(self)
+                    widget.act()
                 self.refresh()
             elif content.get("type") == "click":
                 point = widget.point(content["x"], content["y"])

@@ -7,14 +7,9 @@ view, a late view and a reloaded page come right by themselves:
     commands    meshcat's commands (set_object, set_transform, set_property), msgpack, by key
     pose        where everything that moves stands now: 16 numbers per path, one message per pose
     motion      many poses at once, stepped in the page
-
-This is the one module that knows meshcat.
 """
 
 import functools
-import gzip
-import importlib.util
-import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -23,39 +18,20 @@ import anywidget
 import ipywidgets
 import numpy as np
 import traitlets
-import umsgpack
 from numpy.typing import ArrayLike
 
+from coursekit.view import meshcat
+from coursekit.view.meshcat import column_major
+from coursekit.view.picture import png
 from coursekit.view.scene import Scene
 
-_STATIC = Path(__file__).parent / "static"
+STATIC = Path(__file__).parent / "static"
 _SCRIPTS = ("bundle.js", "stage.js", "actors.js", "player.js", "viewer.js")
 
 
 def script() -> str:
     """The page's side of the viewer: one JavaScript module, joined from the files in `static/`."""
-    return "\n".join((_STATIC / name).read_text(encoding="utf-8") for name in _SCRIPTS)
-
-
-@functools.cache
-def bundle() -> bytes:
-    """meshcat's JavaScript bundle, gzipped (853 KB become 217 KB).
-
-    Found without importing meshcat, whose import costs half a second and warns about a library it uses.
-    """
-    found = importlib.util.find_spec("meshcat")
-    if found is None or found.origin is None:
-        raise ModuleNotFoundError("the viewer needs meshcat, which is not installed", name="meshcat")
-    package = Path(found.origin).parent
-    return gzip.compress((package / "viewer" / "dist" / "main.min.js").read_bytes(), 6, mtime=0)
-
-
-def column_major(T: ArrayLike) -> bytes:
-    """Bytes of transforms (..., 4, 4) as three.js reads them: float64, column by column."""
-    T = np.asarray(T, float)
-    if T.shape[-2:] != (4, 4):
-        raise ValueError(f"transforms must have shape (..., 4, 4), got {T.shape}")
-    return np.ascontiguousarray(np.swapaxes(T, -1, -2)).tobytes()
+    return "\n".join((STATIC / name).read_text(encoding="utf-8") for name in _SCRIPTS)
 
 
 class Viewer(anywidget.AnyWidget):
@@ -73,10 +49,10 @@ class Viewer(anywidget.AnyWidget):
     """
 
     _esm = script()
-    _css = _STATIC / "viewer.css"
+    _css = STATIC / "viewer.css"
     _bundle_was_sent = False  # by any Viewer of this kernel
 
-    commands = traitlets.Dict().tag(sync=True, to_json=lambda _value, viewer: dict(viewer._packed))
+    commands = traitlets.Dict().tag(sync=True, to_json=lambda _value, viewer: dict(viewer.messages.packed))
     labels: traitlets.List = traitlets.List().tag(sync=True)
     ghosts: traitlets.List = traitlets.List().tag(sync=True)
     moving: traitlets.List = traitlets.List().tag(sync=True)
@@ -93,14 +69,13 @@ class Viewer(anywidget.AnyWidget):
 
     def __init__(self, scene: Scene, height: int = 420, quality: str = "auto") -> None:
         self.scene = scene
-        self._drawn: dict[str, dict] = {}  # key -> the scene's command, to see what changed
-        self._packed: dict[str, bytes] = {}  # key -> its bytes
-        self._take(scene)
+        self.messages = meshcat.Messages()
+        self.messages.update(scene)
         super().__init__(height=height, quality=quality, **self._state(scene))
         self.on_msg(self._answer)
         if not Viewer._bundle_was_sent:  # at once: the page must not wait until a busy kernel answers
             Viewer._bundle_was_sent = True
-            self.send({"type": "bundle"}, buffers=[bundle()])
+            self.send({"type": "bundle"}, buffers=[meshcat.bundle()])
 
     def sync(self, scene: Scene | None = None) -> None:
         """Send what changed in the scene since the last call, and nothing else.
@@ -108,10 +83,10 @@ class Viewer(anywidget.AnyWidget):
         A robot that moved away from the motion ends it; a label or a frame that is switched on does not.
         """
         self.scene = scene = self.scene if scene is None else scene
-        changed, gone, deleted = self._take(scene)
+        changed, gone, deleted = self.messages.update(scene)
         if changed or gone:
             content = {"type": "commands", "keys": changed, "gone": gone, "delete": deleted}
-            self.send(content, buffers=[self._packed[key] for key in changed])
+            self.send(content, buffers=[self.messages.packed[key] for key in changed])
         state = self._state(scene)
         with self.hold_sync():
             if state["pose"] != self.pose and not self._shows(state["pose"]):
@@ -162,42 +137,21 @@ class Viewer(anywidget.AnyWidget):
                 "autoplay": bool(autoplay),
             }
 
-    def stop(self) -> None:
-        """Take the motion and its buttons away and show the scene's own pose."""
-        with self.hold_sync():
-            self.motion, self.motion_poses, self.motion_texts, self.frame = {}, b"", [], -1
-
     def forget(self) -> None:
         """Let go of what was drawn, once the viewer is closed."""
-        self._drawn, self._packed = {}, {}
+        self.messages = meshcat.Messages()
         self.scene = None  # type: ignore[assignment]  # closed: nothing may use it any more
 
     @functools.cached_property
     def meshcat(self) -> Any:
         """A `meshcat.Visualizer` that draws into this viewer, for those who know meshcat."""
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", DeprecationWarning)  # meshcat imports a part of zmq that will go
-            import meshcat
-        return meshcat.Visualizer(window=self)
+        return meshcat.visualizer(self.send_command)
 
-    def send_command(self, key: str, command: dict) -> None:
-        """Send one raw meshcat command beside the scene's own; the same key replaces it later."""
-        self._packed[key] = umsgpack.packb(command)
-        self.send({"type": "commands", "keys": [key], "gone": [], "delete": []}, [self._packed[key]])
-
-    def send(self, content: Any, buffers: Sequence[bytes] | None = None) -> None:
-        """Send a custom message; a meshcat command object (from `meshcat.Visualizer`) is packed first."""
-        if hasattr(content, "lower"):
-            command = content.lower()
-            kind = command.get("property", "") if command["type"] == "set_property" else ""
-            return self.send_command(f"meshcat:{command['path']}:{command['type']}:{kind}", command)
-        return super().send(content, buffers)
-
-    def to_html(self) -> str:
-        """A page with this scene in 3D that needs neither kernel nor network, as one string."""
-        from coursekit.view.page import standalone
-
-        return standalone(self)
+    def send_command(self, key: str, packed: bytes) -> None:
+        """Send one raw meshcat command (msgpack) beside the scene's own; the same key replaces it later."""
+        self.messages.packed.pop(key, None)  # to the end: a view that comes late gets them in this order
+        self.messages.packed[key] = packed
+        self.send({"type": "commands", "keys": [key], "gone": [], "delete": []}, [packed])
 
     def __repr__(self) -> str:
         return f"Viewer({'closed' if self.scene is None else self.scene.text()})"
@@ -206,25 +160,6 @@ class Viewer(anywidget.AnyWidget):
         return mimebundle(self, repr(self), self.scene, self.height)
 
     # -- what goes to the page
-
-    def _take(self, scene):
-        """Note the scene's commands: the keys that changed, those that are gone, and the paths to delete."""
-        new = dict(scene.commands)
-        gone = [key for key in self._drawn if key not in new]
-        deleted = [self._drawn[key]["path"] for key in gone if self._drawn[key]["type"] == "set_object"]
-        for key in gone:
-            self._packed.pop(key, None)
-        # deleting a path takes everything below it along: what is still there is sent again
-        beneath = tuple(path.rstrip("/") + "/" for path in deleted)
-        changed = [
-            key
-            for key, command in new.items()
-            if self._drawn.get(key) is not command or (command["path"] + "/").startswith(beneath)
-        ]
-        for key in changed:
-            self._packed[key] = umsgpack.packb(new[key])
-        self._drawn = new
-        return changed, gone, deleted
 
     def _state(self, scene):
         return {
@@ -255,17 +190,17 @@ class Viewer(anywidget.AnyWidget):
 
     def _answer(self, _widget, content, _buffers):
         if content.get("type") == "need_bundle":
-            self.send({"type": "bundle"}, buffers=[bundle()])
+            self.send({"type": "bundle"}, buffers=[meshcat.bundle()])
         elif content.get("type") == "need_png":
             size = int(content.get("width", 640)), int(content.get("height", 420))
-            self.send({"type": "png"}, buffers=[self.scene.png(*size)])
+            self.send({"type": "png"}, buffers=[png(self.scene, *size)])
 
 
 def mimebundle(widget: ipywidgets.Widget, text: str, scene: Scene, height: int) -> tuple[dict, dict]:
     """What a notebook stores for a widget: itself, a picture for readers without a kernel, and one line."""
     data = {
         "text/plain": text,
-        "image/png": scene.png(640, height),
+        "image/png": png(scene, 640, height),
         "application/vnd.jupyter.widget-view+json": {
             "version_major": 2,
             "version_minor": 0,

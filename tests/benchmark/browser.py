@@ -145,7 +145,7 @@ def stock(browser, moves, area):
         kr6 = robots.kuka_kr6()
         scene = view.Scene()
         scene.robot(kr6)
-        for command in scene.commands.values():
+        for command in view.meshcat.commands(scene).values():
             server.window.send(Raw(command))
         page = browser.new_page(viewport=area)
         page.goto(server.url())

@@ -126,7 +126,7 @@ def screws(explorer):
 
 def inverse(explorer):
     explorer.slide("x", ["PageUp"])
-    shown = np.array(explorer.kernel("scene.theta('robot').tolist()"))
+    shown = np.array(explorer.kernel("scene.robots['robot'].theta.tolist()"))
     explorer.assert_arm_stands_at(shown)
     x, y, z = explorer.values("pose")[:3]
     np.testing.assert_allclose(explorer.robot.fk(shown)[:3, 3], [x, y, z], atol=1e-12)
@@ -137,7 +137,9 @@ def inverse(explorer):
     explorer.settle()
     assert "shown: front elbow-up no-flip" in explorer.words()
     np.testing.assert_allclose(
-        explorer.robot.fk(explorer.kernel("scene.theta('robot').tolist()"))[:3, 3], [x, y, z], atol=1e-12
+        explorer.robot.fk(explorer.kernel("scene.robots['robot'].theta.tolist()"))[:3, 3],
+        [x, y, z],
+        atol=1e-12,
     )
 
     explorer.press("show Newton's steps")
@@ -192,13 +194,13 @@ def path(explorer):
     place = explorer.pause_from(5) - 1
     assert 4 <= place < 100
     explorer.settle()
-    theta = np.array(explorer.kernel("scene.theta('robot').tolist()"))
+    theta = np.array(explorer.kernel("scene.robots['robot'].theta.tolist()"))
     explorer.assert_arm_stands_at(theta)
     assert f"point {place + 1} of 101" in explorer.page.locator(".ck-text").first.inner_text()
     explorer.page.get_by_label("playing speed").select_option("1")
     explorer.press("play the motion")
     explorer.played_to_the_end(101)
-    last = np.array(explorer.kernel("scene.theta('robot').tolist()"))
+    last = np.array(explorer.kernel("scene.robots['robot'].theta.tolist()"))
     explorer.assert_arm_stands_at(last)
     tool = explorer.robot.fk(last)[:3, 3]
     np.testing.assert_allclose(np.linalg.norm(tool - [0, 0, 0.5]), 0.5, atol=1e-9)  # on the sphere

@@ -103,7 +103,7 @@ def test_a_page_of_its_own_turns_offline_under_any_policy(browser, tmp_path, pol
     kr6 = robots.kuka_kr6()
     panel = view.explore(kr6)
     panel.set(theta=kr6.home + 0.3)
-    page_text = panel.to_html()
+    page_text = view.to_html(panel)
     panel.close()
     if policy:
         meta = f'<meta http-equiv="Content-Security-Policy" content="{policy}">'

@@ -25,7 +25,7 @@ def small_panel(**more):
 
     def update(values):
         calls.append(values)
-        scene.set_theta("robot", values["theta"])
+        scene.robots["robot"].theta = values["theta"]
 
     panel = Panel(
         "test", scene, [joint_sliders(kr6), Toggle("on")], update, lambda values: str(values["on"]), **more
@@ -48,7 +48,7 @@ def test_a_slider_moved_in_the_page_moves_the_robot(made):
     as_the_browser(panel._controls["theta"].sliders[0], value=30.0, live=True)
     theta = panel.values["theta"]
     assert theta[0] == pytest.approx(np.pi / 6, abs=1e-15)
-    np.testing.assert_array_equal(panel.scene.theta(), theta)
+    np.testing.assert_array_equal(panel.scene.robots["robot"].theta, theta)
     poses = np.frombuffer(panel.viewer.pose).reshape(-1, 4, 4).transpose(0, 2, 1)
     np.testing.assert_array_equal(poses, robots.kuka_kr6().displacements(theta))
 
@@ -105,7 +105,7 @@ def test_an_action_and_a_table_and_a_plot(made):
 
     plot = Plot(draw, "An empty plot.", on_click=lambda x, y: clicked.append((x, y)))
     table = Table("rows", lambda values: (["x"], [[f"{values['x']:.2f}"]]), selectable=True)
-    go = Action("go", act=lambda panel: panel.set(x=0.5))
+    go = Action("go", act=lambda: panel.set(x=0.5))
     panel = made(Panel("all", Scene(), [Slider("x"), go], below=[plot, table]))
     assert table.rows == [["0.00"]] and plot.png.startswith(b"\x89PNG")
 
@@ -140,11 +140,11 @@ def test_an_action_can_play_a_motion_and_reset_ends_it(made):
     scene = Scene()
     scene.robot(kr6)
     thetas = np.linspace(kr6.home, kr6.home + 0.5, 11)
-    go = Action("go", act=lambda panel: panel.play_theta(thetas))
+    go = Action("go", act=lambda: panel.play_theta(thetas))
     panel = made(Panel("motion", scene, [go, Toggle("on")]))
     panel._message(go, {"type": "press"}, [])
     assert panel.viewer.motion["frames"] == 11 and panel.viewer.frame == 0
-    np.testing.assert_array_equal(scene.theta(), kr6.home)
+    np.testing.assert_array_equal(scene.robots["robot"].theta, kr6.home)
     as_the_browser(panel._controls["on"], value=True)
     assert panel.viewer.frame == 0
     panel.reset()
@@ -234,3 +234,11 @@ def test_every_widget_has_a_stable_repr():
 def test_mistakes_are_named(call, message):
     with pytest.raises(ValueError, match=message):
         call()
+
+
+def test_values_are_read_once_a_change(made, monkeypatch):
+    panel, read = made(small_panel()), []
+    original = Sliders.get
+    monkeypatch.setattr(Sliders, "get", lambda self: read.append(self.name) or original(self))
+    as_the_browser(panel._controls["theta"].sliders[0], value=30.0)
+    assert read == ["theta"]

@@ -107,7 +107,7 @@ export default function () {
         viewer.set_dirty();
       };
       const onCamera = () => {
-        camera.lens(model.get("camera").size || 1);
+        camera.lens(model.get("camera"));
         buttons.replaceChildren();
         for (const [name, where] of Object.entries(model.get("views"))) {
           const button = element("button", { type: "button", class: "ck-button", title: `${name} view` }, name);
