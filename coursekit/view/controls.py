@@ -87,6 +87,7 @@ class Slider(Control):
     unit = traitlets.Unicode().tag(sync=True)
     digits = traitlets.Int().tag(sync=True)
     shape = traitlets.Int(0).tag(sync=True)  # counts changes of everything but the value
+    _beyond = False  # whether a value outside min and max is taken as it is
 
     def __init__(
         self,
@@ -149,13 +150,23 @@ class Slider(Control):
         self.value = shown
         self._exact = (self.value, value)
 
+    def show(self, value: float) -> None:
+        """Put a value that may lie beyond the ends, where a motion leads there: it is marked as outside."""
+        self._beyond = True
+        try:
+            self.value = self._shown(float(value))
+        finally:
+            self._beyond = False
+        self._exact = (self.value, float(value))
+
     def _shown(self, si):
         return float(np.round(si * self._shown_per_si, 10)) + 0.0  # 170.00000000000003 degrees is 170
 
     @traitlets.validate("value")
     def _inside(self, proposal):
         low, high = self.min, self.max
-        return float(np.clip(proposal["value"], low, high)) if low < high else proposal["value"]
+        clips = low < high and not self._beyond
+        return float(np.clip(proposal["value"], low, high)) if clips else proposal["value"]
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.name}: {np.round(self.value, 3) + 0:g} {self.unit})"
@@ -211,6 +222,11 @@ class JointSliders(Sliders):
     """One slider per joint; the value is theta (n,), in radians and metres."""
 
     sliders: Sequence[JointSlider]
+
+    def show(self, theta: ArrayLike) -> None:
+        """Put theta (n,), also where a motion leads beyond the limits."""
+        for slider, value in zip(self.used, np.asarray(theta, float), strict=True):
+            slider.show(value)
 
     def __init__(
         self, robot: Robot, start: Sequence[float] | np.ndarray | None = None, name: str = "theta"

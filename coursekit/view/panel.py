@@ -27,6 +27,7 @@ under one lock, because slider messages arrive in more than one thread. Nothing 
 import contextlib
 import threading
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import ipywidgets
@@ -34,8 +35,23 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from coursekit.view import controls as parts
-from coursekit.view.scene import Scene
+from coursekit.view.scene import Arm, Scene
 from coursekit.view.viewer import Viewer, mimebundle
+
+
+@dataclass
+class Motion:
+    """Joint values (N, n) that a robot of the scene goes through, and the one that is shown now."""
+
+    arm: Arm
+    thetas: np.ndarray
+    frame: int = 0
+
+    @property
+    def theta(self) -> np.ndarray:
+        """The configuration that is shown, (n,)."""
+        return self.thetas[self.frame]
+
 
 _open: dict = {}  # (name, cell) -> the panel shown there now
 
@@ -82,6 +98,8 @@ class Panel(ipywidgets.VBox):
         self._text = text
         self._lock = threading.RLock()
         self._quiet, self._was_put = False, False
+        self.motion: Motion | None = None
+        self._played = False  # whether it ran when the page last said so
         self._stale: list = []  # plots that wait until a drag ends
         self._controls = {
             control.name: control for control in (*controls, *below) if hasattr(control, "name")
@@ -105,6 +123,7 @@ class Panel(ipywidgets.VBox):
             output.refresh(values) if hasattr(output, "refresh") else None
         for control in self._widgets():
             self._listen(control)
+        self.viewer.observe(self._frame_changed, ["frame", "playing"])
         self._replace_previous()
 
     # -- values
@@ -124,25 +143,29 @@ class Panel(ipywidgets.VBox):
             if name not in self._controls:
                 known = ", ".join(self._controls)
                 raise ValueError(f"panel {self.name!r} has no control {name!r}; it has: {known}")
-        with self._lock, self._silence():
-            for name, value in values.items():
-                self._controls[name].put(value)
-        self.refresh()
+        with self._lock:
+            with self._silence():
+                for name, value in values.items():
+                    self._controls[name].put(value)
+            if not all(isinstance(self._controls[name], parts.Toggle) for name in values):
+                self._end_motion()
+            self.refresh()
 
     def reset(self) -> None:
-        """Every control back to where it started."""
-        with self._lock, self._silence():
-            for control in self._controls.values():
-                control.reset()
-        self.refresh()
-        self.viewer.frame = -1  # a motion that rests somewhere gives way to the robot's own pose
+        """Every control back to where it started, and the end of a motion."""
+        with self._lock:
+            with self._silence():
+                for control in self._controls.values():
+                    control.reset()
+            self._end_motion()
+            self.refresh()
 
     def refresh(self, live: bool = False) -> None:
         """Update scene, text and plots from the controls; `live`: more values will follow at once."""
         with self._lock:
             try:
                 values = self._updated()
-                self.viewer.sync(self.scene)
+                self.viewer.sync(self.scene, self.motion and self.motion.frame)
                 self.line.value = self._words(values)
                 for output in self.below:
                     if live and hasattr(output, "has_time") and not output.has_time():
@@ -157,18 +180,6 @@ class Panel(ipywidgets.VBox):
 
     def play(
         self,
-        poses: ArrayLike,
-        fps: float = 30.0,
-        loop: bool = False,
-        texts: Sequence[str] | None = None,
-        autoplay: bool = True,
-    ) -> None:
-        """Play transforms (N, k, 4, 4) of `scene.moving` in the page; see `Viewer.play`."""
-        with self._lock:
-            self.viewer.play(poses, fps, loop, texts, autoplay)
-
-    def play_theta(
-        self,
         thetas: ArrayLike,
         name: str = "robot",
         fps: float = 30.0,
@@ -177,19 +188,34 @@ class Panel(ipywidgets.VBox):
         autoplay: bool = True,
         follow: Callable[[np.ndarray], None] | None = None,
     ) -> None:
-        """Play joint values (N, n) of the robot `name`; the scene itself stays as it is.
+        """Play joint values (N, n) of the robot `name` in the page, with buttons to pause and scrub.
 
+        What the motion shows is what the panel shows: scene, sliders called "theta", text and plots go along,
+        and stand where it rests. The motion ends with the next change of a control that is no switch.
+
+        Parameters
+        ----------
+        thetas : (N, n)
+        fps, loop, texts, autoplay
+            As of `Viewer.play`.
         follow : function(theta), optional
-            Moves what goes with the arm (by its handle), for one configuration.
+            Moves what goes with the arm (by its handle), so that the page has it for every frame.
         """
         with self._lock:
             arm, poses = self.scene.robots[name], []
-            for theta in (*np.asarray(thetas, float), arm.theta):
+            self.motion = None
+            motion = Motion(arm, np.array(thetas, float))
+            for theta in motion.thetas:
                 arm.theta = theta
                 if follow is not None:
                     follow(theta)
                 poses.append(self.scene.pose())
-            self.viewer.play(np.array(poses[:-1]), fps, loop, texts, autoplay)
+            with self._silence():
+                self.viewer.sync(self.scene)  # the paths that move, before what moves them
+                self.viewer.play(np.array(poses), fps, loop, texts, autoplay)
+            self.motion = motion
+            if not self._quiet:
+                self.refresh()
 
     # -- what a notebook stores
 
@@ -207,7 +233,7 @@ class Panel(ipywidgets.VBox):
         # The notebook's Out[...] keeps the panel for ever: what it drew must not stay with it.
         if hasattr(self, "viewer"):  # a panel that was refused half-way has none
             self.viewer.forget()
-        self.below, self._controls, self._stale = [], {}, []
+        self.below, self._controls, self._stale, self.motion = [], {}, [], None
         self.scene = None  # type: ignore[assignment]  # closed: nothing may use it any more
         self.children = []
         self._update = self._text = None
@@ -243,10 +269,15 @@ class Panel(ipywidgets.VBox):
 
     def _updated(self):
         """The values, once the scene shows them; read again where `update` put something into a control."""
-        values, self._was_put = self.values, False
         with self._silence():
+            sliders = self._controls.get("theta")
+            if self.motion and isinstance(sliders, parts.JointSliders):
+                sliders.show(self.motion.theta)
+            values, self._was_put = self.values, False
             if self._update is not None:
                 self._update(values)
+        if self.motion:
+            self.motion.arm.theta = self.motion.theta
         return self.values if self._was_put else values
 
     def _words(self, values):
@@ -271,7 +302,26 @@ class Panel(ipywidgets.VBox):
         with self._lock:
             self._was_put = True
             if not self._quiet:
+                if not isinstance(change.owner, parts.Toggle):
+                    self._end_motion()
                 self.refresh(live=getattr(change.owner, "live", False))
+
+    def _frame_changed(self, _change):
+        """The page shows another frame of the motion, or rests at one."""
+        with self._lock:
+            if self._quiet:
+                return
+            if self.motion is None or self.viewer.frame < 0:
+                self._end_motion()  # the page may not know yet that it has ended
+            elif (self.motion.frame, self._played) != (self.viewer.frame, self.viewer.playing):
+                last = len(self.motion.thetas) - 1
+                self.motion.frame, self._played = min(max(self.viewer.frame, 0), last), self.viewer.playing
+                self.refresh(live=self._played)
+
+    def _end_motion(self):
+        self.motion = None
+        with self._silence():
+            self.viewer.end()
 
     def _drag_ended(self, change):
         with self._lock:

@@ -10,6 +10,7 @@ view, a late view and a reloaded page come right by themselves:
 """
 
 import functools
+import itertools
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -63,7 +64,8 @@ class Viewer(anywidget.AnyWidget):
     motion = traitlets.Dict().tag(sync=True)
     motion_poses = traitlets.Bytes().tag(sync=True)
     motion_texts: traitlets.List = traitlets.List().tag(sync=True)
-    frame = traitlets.Int(-1).tag(sync=True)  # pose of the motion that is shown; -1: `pose` is shown
+    frame = traitlets.Int(-1).tag(sync=True)  # pose of the motion that the page shows; -1: `pose` is shown
+    playing = traitlets.Bool(False).tag(sync=True)  # more frames will follow
     height = traitlets.Int(420).tag(sync=True)
     quality = traitlets.Enum(["auto", "high", "low"], "auto").tag(sync=True)
 
@@ -71,16 +73,19 @@ class Viewer(anywidget.AnyWidget):
         self.scene = scene
         self.messages = meshcat.Messages()
         self.messages.update(scene)
+        self._arms = [arm.robot for arm in scene.robots.values() if arm.style != "ghost"]
+        self._count = itertools.count(1)
         super().__init__(height=height, quality=quality, **self._state(scene))
         self.on_msg(self._answer)
         if not Viewer._bundle_was_sent:  # at once: the page must not wait until a busy kernel answers
             Viewer._bundle_was_sent = True
             self.send({"type": "bundle"}, buffers=[meshcat.bundle()])
 
-    def sync(self, scene: Scene | None = None) -> None:
+    def sync(self, scene: Scene | None = None, frame: int | None = None) -> None:
         """Send what changed in the scene since the last call, and nothing else.
 
-        A robot that moved away from the motion ends it; a label or a frame that is switched on does not.
+        frame : the pose of the motion that the scene shows; the motion goes on. Without it a scene that moved
+        away from what the motion shows ends it; a label or a frame that is switched on does not.
         """
         self.scene = scene = self.scene if scene is None else scene
         changed, gone, deleted = self.messages.update(scene)
@@ -89,17 +94,26 @@ class Viewer(anywidget.AnyWidget):
             self.send(content, buffers=[self.messages.packed[key] for key in changed])
         state = self._state(scene)
         with self.hold_sync():
-            if state["pose"] != self.pose and not self._shows(state["pose"]):
-                self.frame = -1
+            arms = [arm.robot for arm in scene.robots.values() if arm.style != "ghost"]
+            moved = state["pose"] != self.pose and not self._shows(scene)
+            if arms != self._arms or (frame is None and moved):
+                self.end()
+            self._arms = arms
             for name, value in state.items():
                 setattr(self, name, value)
+
+    def end(self) -> None:
+        """Take the motion and its buttons away: the scene's own pose is shown."""
+        with self.hold_sync():
+            self.motion, self.motion_poses, self.motion_texts = {}, b"", []
+            self.frame, self.playing = -1, False
 
     def set_pose(self, transforms: ArrayLike) -> None:
         """Move what moves: transforms (k, 4, 4) in the order of `scene.moving`, in one message."""
         transforms = self._as_poses(transforms, 3)
         with self.hold_sync():
             self.pose = column_major(transforms)
-            self.frame = -1
+            self.end()
 
     def play(
         self,
@@ -125,13 +139,15 @@ class Viewer(anywidget.AnyWidget):
         count = len(transforms)
         if texts is not None and len(texts) != count:
             raise ValueError(f"texts must hold one line for each of the {count} frames, got {len(texts)}")
+        varies = np.flatnonzero(np.ptp(transforms, axis=0).any(axis=(1, 2)))  # the rest stands in `pose`
         with self.hold_sync():
-            self.motion_poses = column_major(transforms)
+            self.motion_poses = column_major(transforms[:, varies])
             self.motion_texts = list(texts or [])
-            self.frame = 0
+            self.frame, self.playing = 0, bool(autoplay)
             self.motion = {
-                "id": self.motion.get("id", 0) + 1,  # the same motion played again is a change, too
+                "id": next(self._count),  # the same motion played again is a change, too
                 "frames": count,
+                "moving": [self.moving[i] for i in varies],
                 "fps": float(fps),
                 "loop": bool(loop),
                 "autoplay": bool(autoplay),
@@ -172,11 +188,15 @@ class Viewer(anywidget.AnyWidget):
             "description": scene.text(),
         }
 
-    def _shows(self, pose):
-        """Whether the frame of the motion at which the page rests is this pose (but for rounding)."""
-        begin = self.frame * len(pose)
-        shown = self.motion_poses[begin : begin + len(pose)] if self.frame >= 0 else b""
-        return len(shown) == len(pose) and np.allclose(np.frombuffer(shown), np.frombuffer(pose), atol=1e-12)
+    def _shows(self, scene):
+        """Whether the scene stands as in the frame of the motion that the page shows (but for rounding)."""
+        paths = self.motion.get("moving", [])
+        if self.frame < 0 or not set(paths) <= set(scene.moving):
+            return False
+        now = scene.pose()[[scene.moving.index(path) for path in paths]]
+        begin = self.frame * now.nbytes
+        shown = self.motion_poses[begin : begin + now.nbytes]
+        return np.allclose(np.frombuffer(shown), np.frombuffer(column_major(now)), atol=1e-12)
 
     def _as_poses(self, transforms: ArrayLike, dimensions: int) -> np.ndarray:
         transforms = np.asarray(transforms, float)

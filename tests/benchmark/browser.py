@@ -176,7 +176,7 @@ def motion(notebook, quality):
     """One row: a motion of 101 poses at 30 frames a second."""
     page = notebook.page
     page.evaluate(POSES_SEEN)
-    notebook.kernel("panel.play_theta(np.linspace(kr6.home, kr6.home + 0.8, 101))")
+    notebook.kernel("panel.play(np.linspace(kr6.home, kr6.home + 0.8, 101))")
     page.wait_for_function(
         "() => document.querySelector('.ck-count').textContent === '101 / 101'", timeout=60_000
     )

@@ -15,7 +15,7 @@ DRAWN = "() => document.querySelector('.ck-viewer')?.coursekit?.stage.frames > 0
 
 def test_a_motion_plays_to_its_last_pose_and_can_be_scrubbed(notebook, lab):
     motion = "q = np.linspace(kr6.home, kr6.home + 0.5, 101)\n"
-    motion += "panel.play_theta(q, texts=[f'pose {k}' for k in range(101)])"
+    motion += "panel.play(q, texts=[f'pose {k}' for k in range(101)])"
     notebook.open(lab.write("motion.ipynb", IMPORT, SHOW, motion))
     notebook.run_all()
     notebook.wait_view()

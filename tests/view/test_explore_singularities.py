@@ -28,7 +28,9 @@ def panel(opened):
 
 
 def press(panel, name):
+    """Press a button, and let the page play to the end what that starts."""
     panel._message(panel._controls[name], {"type": "press"}, [])
+    panel.viewer.set_state({"frame": panel.viewer.motion["frames"] - 1, "playing": False})
 
 
 def test_it_opens_regular_with_a_stable_text(panel):

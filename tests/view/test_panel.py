@@ -140,15 +140,39 @@ def test_an_action_can_play_a_motion_and_reset_ends_it(made):
     scene = Scene()
     scene.robot(kr6)
     thetas = np.linspace(kr6.home, kr6.home + 0.5, 11)
-    go = Action("go", act=lambda: panel.play_theta(thetas))
+    go = Action("go", act=lambda: panel.play(thetas))
     panel = made(Panel("motion", scene, [go, Toggle("on")]))
     panel._message(go, {"type": "press"}, [])
     assert panel.viewer.motion["frames"] == 11 and panel.viewer.frame == 0
     np.testing.assert_array_equal(scene.robots["robot"].theta, kr6.home)
     as_the_browser(panel._controls["on"], value=True)
-    assert panel.viewer.frame == 0
+    assert panel.viewer.frame == 0, "a switch does not end it"
     panel.reset()
-    assert panel.viewer.frame == -1
+    assert panel.viewer.frame == -1 and panel.viewer.motion == {}
+
+
+def the_page_shows(panel, frame, playing=False):
+    """What the page says while it plays, or where it rests."""
+    panel.viewer.set_state({"frame": frame, "playing": playing})
+
+
+def test_what_a_motion_shows_is_what_everything_shows(made):
+    panel = made(small_panel())
+    kr6, thetas = robots.kuka_kr6(), np.linspace([0, -1, 1, 0, 0, 0], [1, -1, 1, 0, 9, 0], 11)
+    panel.play(thetas)
+    for frame, playing in ((3, True), (10, False)):
+        the_page_shows(panel, frame, playing)
+        np.testing.assert_array_equal(panel.values["theta"], thetas[frame])  # beyond a limit, too
+        np.testing.assert_array_equal(panel.scene.robots["robot"].theta, thetas[frame])
+        np.testing.assert_array_equal(panel.calls[-1]["theta"], thetas[frame])
+        assert panel.viewer.frame == frame
+        pose = np.frombuffer(panel.viewer.pose).reshape(-1, 4, 4).transpose(0, 2, 1)
+        np.testing.assert_array_equal(pose, kr6.displacements(thetas[frame]))
+    as_the_browser(panel._controls["theta"].sliders[0], value=30.0)
+    np.testing.assert_array_equal(panel.values["theta"], [np.pi / 6, *thetas[10, 1:]])
+    assert panel.viewer.motion == {}
+    the_page_shows(panel, 4)  # said before the page knew
+    assert panel.viewer.frame == -1 and panel.values["theta"][0] == np.pi / 6
 
 
 def test_an_error_of_the_explorer_is_shown(made):

@@ -106,8 +106,18 @@ def test_a_motion_ends_exactly_and_a_new_pose_ends_the_motion(viewer, scene):
     viewer.sync()
     assert viewer.frame == 0, "something drawn beside it does not stop the motion"
     scene.robots["robot"].theta = thetas[7]
+    viewer.sync(frame=7)
+    assert viewer.motion, "the scene shows what the motion does"
+    scene.robots["robot"].theta = thetas[8]
     viewer.sync()
-    assert viewer.frame == -1
+    assert (viewer.frame, viewer.motion, viewer.motion_poses) == (-1, {}, b"")
+
+
+def test_another_robot_ends_the_motion(viewer, scene):
+    viewer.play(robots.kuka_kr6().displacements(np.linspace(np.zeros(6), np.ones(6), 11)))
+    scene.robot(robots.puma560())  # as many links, but others
+    viewer.sync()
+    assert (viewer.frame, viewer.motion) == (-1, {})
 
 
 @pytest.mark.parametrize(

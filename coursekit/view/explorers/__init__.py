@@ -26,6 +26,12 @@ class Explorer:
         self.scene = Scene()
         self.panel: Panel | None = None
 
+    @property
+    def frame(self) -> int | None:
+        """Which configuration of a motion is shown; None where no motion is."""
+        motion = self.panel and self.panel.motion
+        return motion.frame if motion else None
+
     def controls(self) -> Sequence[Control | Sliders]:
         """What stands beside the picture."""
         raise NotImplementedError

@@ -79,7 +79,7 @@ class _Inverse(Explorer):
             self.scene.remove("/ck/newton")
 
     def play(self):
-        self.panel.play_theta(self.steps(), fps=2.0)
+        self.panel.play(self.steps(), fps=2.0)
 
     def solve(self, pose, guess, row):
         self.T = np.eye(4)
@@ -98,13 +98,16 @@ class _Inverse(Explorer):
         self.found = ik.newton(self.robot, self.T, guess, max_iterations=STEPS, tol=1e-9, rows=rows)
 
     def others(self):
-        """Ghost name -> configuration: the other solutions or, out of reach, the closest pose found."""
+        """Ghost name -> configuration: the other solutions or, out of reach, the closest pose found.
+
+        While the arm shows Newton's steps, the chosen solution is another one, too.
+        """
         if not self.reached:
             return {"closest": self.found.theta}
         return {
             f"branch{k}": theta
             for k, theta in enumerate(self.theta)
-            if self.solutions.exists[k] and k != self.chosen
+            if self.solutions.exists[k] and (k != self.chosen or self.frame is not None)
         }
 
     def draw_ghosts(self, wanted):
@@ -127,11 +130,20 @@ class _Inverse(Explorer):
         lines = [f"target: {text.pose(self.T)}"]
         if self.reached:
             count = f"{exists.sum()} of {len(exists)} solutions, {inside.sum()} inside the limits"
-            name = self.solutions.branches[self.chosen]
-            lines += [f"{count}; shown: {name}, {text.degrees(self.shown)}"]
+            lines += [f"{count}; {self.which()}"]
         else:
-            lines += [f"out of reach: no solution; the arm stays at {text.degrees(self.shown)}"]
+            lines += [f"out of reach: no solution; {self.which()}"]
         return "\n".join([*lines, f"Newton from the guess: {self.verdict()}"])
+
+    def which(self):
+        """What the solid arm shows."""
+        if self.frame is None:
+            name = f"shown: {self.solutions.branches[self.chosen]}," if self.reached else "the arm stays at"
+            return f"{name} {text.degrees(self.shown)}"
+        step = self.found.history[self.frame]
+        angle, distance = text.degrees(step.error[0]), text.millimetres(step.error[1])
+        at = f"{self.frame} of {self.found.iterations}, {text.degrees(step.theta)}"
+        return f"shown: Newton's step {at}, {angle} and {distance} away"
 
     def verdict(self):
         """What Newton's method came to, in words."""
@@ -170,6 +182,8 @@ class _Inverse(Explorer):
             ax.semilogy(
                 np.maximum(error[:, column], 1e-17), style, ms=4, label=name, color=f"#{PALETTE[color]:06X}"
             )
+        if self.frame is not None:
+            ax.axvline(self.frame, color="black", ls="--", lw=1)
         ax.minorticks_off()  # many ticks are slow to draw
         ax.set(xlabel="step", ylabel="angle, distance left", ylim=(1e-17, 10), yticks=[1e-15, 1e-10, 1e-5, 1])
         ax.set_title(self.verdict().split(";")[0], fontsize=10)

@@ -56,14 +56,16 @@ class _Jacobians(Explorer):
             goal = np.clip(goal + 0.5, robot.q_min, robot.q_max)
         self.target, self.near = robot.fk(goal), _nearly_singular(robot)
         self._key, self._found = None, {}
+        self.start, self.damping = self.near, None  # of the runs
         self.arm = self.scene.robot(robot, self.near)
         self.scene.frame("/ck/target", self.target, letter="d", size=0.14 * self.scene.size)
         # metres drawn for 1 m/s and for 1 rad/s; rounded, so that the text is exact
         self.scale = {part: round(scale * self.scene.size, 2) for part, scale in SCALE.items()}
 
     def controls(self):
+        self.joints = joint_sliders(self.robot, self.near)
         return [
-            joint_sliders(self.robot, self.near),
+            self.joints,
             Toggle("linear", "linear ellipsoid (teal)", start=True),
             Toggle("angular", "angular ellipsoid (pink)"),
             Slider("damping", 0.1, 0.01, 1.0, step=0.01, label="damping k"),
@@ -77,8 +79,13 @@ class _Jacobians(Explorer):
         return [Plot(self.plot, CAPTION)]
 
     def update(self, values):
-        self.arm.theta = values["theta"]
-        self.draw(values["theta"])
+        if values["damping"] != self.damping:  # another run, from the same start
+            self.damping = values["damping"]
+            self.joints.put(self.start)
+        self.arm.theta = self.joints.get()
+        if self.frame is None:
+            self.start = self.arm.theta
+        self.draw(self.arm.theta)
         for part, drawn in self.ellipsoids.items():
             drawn.show(values[part])
 
@@ -98,8 +105,8 @@ class _Jacobians(Explorer):
         )
 
     def found(self, values):
-        """Name -> Numeric, computed once for the same sliders."""
-        theta, k = values["theta"], values["damping"]
+        """Name -> Numeric from the start, computed once for the same sliders."""
+        theta, k = self.start, values["damping"]
         key = (*theta, k)
         if key != self._key:
             common = {"max_iterations": STEPS, "tol": 1e-8, "rows": "all" if self.robot.n > 5 else "linear"}
@@ -113,7 +120,7 @@ class _Jacobians(Explorer):
     def play(self, name):
         """Show the steps of one method, two a second."""
         steps = [step.theta for step in self.found(self.panel.values)[name].history]
-        self.panel.play_theta(np.array(steps), fps=2.0, follow=self.draw)
+        self.panel.play(np.array(steps), fps=2.0, follow=self.draw)
 
     def comparison(self, values):
         """Steps and longest step of both methods."""
@@ -126,7 +133,8 @@ class _Jacobians(Explorer):
             longest = max(step.step for step in found.history)
             count = f"{found.iterations} steps" if found.converged else f"not there after {STEPS} steps"
             parts.append(f"{title}: {count}, the longest {text.number(longest, 2)} rad")
-        return "to {d}  " + "; ".join(parts)
+        begun = "" if self.frame is None else f" from the start, shown: step {self.frame}"
+        return f"to {{d}}{begun}  " + "; ".join(parts)
 
     def plot(self, figure, values):
         """Length of each step, on a log axis."""

@@ -59,7 +59,7 @@ class _Path(Explorer):
         inside = np.where(reached == n, inside, -1)
         best = np.flatnonzero(inside == inside.max())
         self.branch = min(best.tolist(), key=lambda k: np.abs(q[k, 0]).sum())  # the one nearest to zero
-        self.place, self.motion = 0, None
+        self.place = 0
         self.choose(n, np.full(robot.n, ONE_BOUND), self.branch, False)
         self.draw()
 
@@ -95,13 +95,13 @@ class _Path(Explorer):
     def open(self, height):
         panel = super().open(height)
         self.send()
-        panel.viewer.observe(self.rested, "frame")
         return panel
 
     def update(self, values):
-        another = self.choose(values["points"], values["bounds"], values["branch"], values["wrapped"])
-        if another and self.panel:
+        self.choose(values["points"], values["bounds"], values["branch"], values["wrapped"])
+        if self.panel and self.frame is None:  # the motion ends with every choice: here is another
             self.send()
+        self.place = int(self.shown[self.frame]) if self.panel else 0
         self.arm.theta = self.q[self.branch, self.place]
         for name, drawn in self.switched.items():
             drawn.show(values[name])
@@ -115,16 +115,11 @@ class _Path(Explorer):
         return self.known[n]
 
     def choose(self, n, bounds, branch, wrapped):
-        """Take what the controls say. -> whether the page needs another motion."""
+        """Take what the controls say."""
         self.points, self.q, self.reached, self.inside = self._follow(n)
         self.branch, self.bounds, self.wrapped = branch, bounds, wrapped
         self.limit = path.speed_limit(self.q, self.points, bounds)
         self.faulty = path.speed_limit(_wrapped(self.q), self.points, bounds)
-        before, self.motion = self.motion, (n, self.branch, *bounds)
-        another = self.motion != before
-        if another:
-            self.place = 0
-        return another
 
     # -- the motion in the page
 
@@ -133,16 +128,8 @@ class _Path(Explorer):
         n = len(self.points)
         self.shown = np.linspace(0, n - 1, min(n, FRAMES)).round().astype(int)
         seconds = path.steps(self.points).sum() / self.limit.speed[self.branch]
-        poses, texts = self.robot.displacements(self.q[self.branch, self.shown]), self._at(self.shown)
-        self.sending = True
-        self.panel.play(poses, fps=(len(self.shown) - 1) / seconds, texts=texts, autoplay=False)
-        self.sending = False
-
-    def rested(self, change):
-        """The motion was paused or scrubbed (or reset: -1): arm, text and plot follow."""
-        if not self.sending:
-            self.place = int(self.shown[np.clip(change.new, 0, len(self.shown) - 1)])
-            self.panel.refresh()
+        fps, texts = (len(self.shown) - 1) / seconds, self._at(self.shown)
+        self.panel.play(self.q[self.branch, self.shown], fps=fps, texts=texts, autoplay=False)
 
     # -- words, table, plot
 

@@ -115,8 +115,7 @@ class _Singularities(Explorer):
         start = self.panel.values["theta"]
         end = nearest(self.robot, start, kind)
         if end is not None:
-            self.panel.set(theta=end)
-            self.panel.play_theta(np.linspace(start, end, 31))
+            self.panel.play(np.linspace(start, end, 31))
 
 
 def nearest(robot: Robot, theta: ArrayLike, name: str) -> np.ndarray | None:

@@ -32,7 +32,7 @@ export default function () {
         "data-lm-suppress-shortcuts": "true", title: "drag: turn, right drag: move, wheel after a click: zoom; keys: arrows, + and -, Home" });
       const buttons = element("div", { class: "ck-views", role: "group", "aria-label": "views" });
       const box = element("div", { class: "ck-viewer" }, pane, buttons);
-      const text = element("div", { class: "ck-text", role: "status" });
+      const text = element("div", { class: "ck-text", "aria-live": "polite" });
       box.style.height = `${model.get("height")}px`;
       const wait = element("p", { class: "ck-wait" }, "The 3D view is on its way …");
       pane.append(wait);
@@ -55,10 +55,11 @@ export default function () {
       stage.resized = camera.fit;
 
       // --- poses: the latest one wins and is drawn once; a motion draws its own
-      let moving = [], pose = null, poses = null;
-      const place = (floats, k) => {
-        moving.forEach((path, i) => {
-          const at = 16 * (k * moving.length + i);
+      let moving = [], pose = null; // what moves, and where it stands
+      let played = [], poses = null; // what a motion moves, and where, frame after frame
+      const place = (paths, floats, k) => {
+        paths.forEach((path, i) => {
+          const at = 16 * (k * paths.length + i);
           if (at + 16 <= floats.length) viewer.set_transform(path, floats.subarray(at, at + 16));
         });
         stage.moved();
@@ -66,19 +67,25 @@ export default function () {
       const player = makePlayer({
         wake: stage.wake,
         show(k) {
-          place(poses, k);
+          place(played, poses, k);
           const lines = model.get("motion_texts");
           text.textContent = lines.length ? lines[k] : "";
           text.hidden = !lines.length;
         },
-        report(k) {
+        report(k, playing) {
           model.set("frame", k);
-          model.save_changes();
+          model.set("playing", playing);
+          text.setAttribute("aria-live", playing ? "off" : "polite"); // read aloud where it rests, not 30 times a second
+          if (!playing) text.textContent = `${text.textContent}`;
+          model.save_changes(); // the widgets' own throttle: while the kernel is busy the latest frame waits
         },
       });
       stage.playing = player.playing;
       stage.beforeFrame.push((now) => {
-        if (pose) place(pose, 0);
+        if (pose) {
+          place(moving, pose, 0);
+          if (model.get("frame") >= 0) place(played, poses, player.frame()); // further than the kernel knows
+        }
         pose = null;
         player.tick(now);
       });
@@ -87,16 +94,17 @@ export default function () {
 
       const onPose = () => {
         moving = model.get("moving").map(splitPath);
-        if (model.get("frame") >= 0) return;
-        player.leave();
-        text.hidden = true;
+        if (model.get("frame") >= 0) player.follow(model.get("frame"));
+        else text.hidden = true;
         pose = floatsOf(model.get("pose"));
         stage.moved();
       };
       const onMotion = (at) => {
         poses = floatsOf(model.get("motion_poses"));
+        played = (model.get("motion").moving || []).map(splitPath);
         text.hidden = true;
-        player.load(model.get("motion"), at);
+        player.load(model.get("motion"), at); // or nothing, where there is none any more
+        onPose();
       };
       const onGhosts = () => {
         drawGhosts(model.get("ghosts"));
@@ -147,9 +155,7 @@ export default function () {
       onCamera();
       onText();
       onPose();
-      if (model.get("motion").frames) onMotion(Math.max(0, model.get("frame")));
-      else player.load(null);
-      if (model.get("frame") < 0) onPose();
+      onMotion(Math.max(0, model.get("frame")));
       views.add(view);
 
       const changes = { pose: onPose, moving: onPose, frame: onPose, labels: onLabels, ghosts: onGhosts, camera: onCamera, description: onText,
