@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 from coursekit.kinematics.robot import Robot
 
 STATIC = Path(__file__).parent / "static"
-SCRIPT = (STATIC / "controls.js").read_text(encoding="utf-8")
+SCRIPT = "\n".join((STATIC / f"{name}.js").read_text("utf-8") for name in ("html", "numbers", "controls"))
 _SHOWN_PER_SI = {"deg": 180 / np.pi, "mm": 1000.0}  # every other unit is shown as it is
 
 
@@ -33,6 +33,7 @@ class Control(anywidget.AnyWidget):
     _css = STATIC / "controls.css"
     kind = traitlets.Unicode().tag(sync=True)
     label = traitlets.Unicode().tag(sync=True)
+    touched = traitlets.Int(0).tag(sync=True)  # counts changes by a person
     kind_name: str
     value: Any
     initial: Any  # what `reset` puts
@@ -285,8 +286,13 @@ class Choice(Control):
         return self.meaning[self.value]
 
     def put(self, value: Any) -> None:
-        if value not in self.meaning:
-            raise ValueError(f"choice {self.name!r} has no {value!r}; it has: {', '.join(self.meaning)}")
+        """Choose a label, or what stands behind one."""
+        if not isinstance(value, str) or value not in self.meaning:
+            same = (label for label, meaning in self.meaning.items() if np.array_equal(meaning, value))
+            behind = next(same, None)
+            if behind is None:
+                raise ValueError(f"choice {self.name!r} has no {value!r}; it has: {', '.join(self.meaning)}")
+            value = behind
         self.value = value
 
     def reset(self) -> None:

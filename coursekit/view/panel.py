@@ -53,7 +53,7 @@ class Motion:
         return self.thetas[self.frame]
 
 
-_open: dict = {}  # (name, cell) -> the panel shown there now
+_open: dict = {}  # panel -> (name, cell, run of the cell) that shows it
 
 
 class Panel(ipywidgets.VBox):
@@ -101,14 +101,16 @@ class Panel(ipywidgets.VBox):
         self.motion: Motion | None = None
         self._played = False  # whether it ran when the page last said so
         self._stale: list = []  # plots that wait until a drag ends
-        self._controls = {
-            control.name: control for control in (*controls, *below) if hasattr(control, "name")
-        }
-        if len(self._controls) < len(controls):
-            raise ValueError(f"panel {name!r}: two controls have the same name")
+        named = [
+            control for control in (*controls, *below) if hasattr(control, "name")
+        ]  # stock widgets are not
+        self._controls = {control.name: control for control in named}
+        for control in named:
+            if self._controls[control.name] is not control:
+                raise ValueError(f"panel {name!r}: two controls are called {control.name!r}")
 
         values = self._updated()
-        self.viewer = Viewer(scene, height=height, quality=quality)
+        self.viewer = Viewer(scene, height=height, quality=quality, lock=self._lock)
         self.line = parts.TextLine("text")
         self.line.value = self._words(values)
         super().__init__(layout=ipywidgets.Layout(width="100%"))
@@ -123,6 +125,8 @@ class Panel(ipywidgets.VBox):
             output.refresh(values) if hasattr(output, "refresh") else None
         for control in self._widgets():
             self._listen(control)
+        touchable = [widget for widget in self._widgets() if widget.has_trait("touched")]
+        self.viewer.controls = [f"IPY_MODEL_{widget.model_id}" for widget in touchable]
         self.viewer.observe(self._frame_changed, ["frame", "playing"])
         self._replace_previous()
 
@@ -144,12 +148,17 @@ class Panel(ipywidgets.VBox):
                 known = ", ".join(self._controls)
                 raise ValueError(f"panel {self.name!r} has no control {name!r}; it has: {known}")
         with self._lock:
-            with self._silence():
-                for name, value in values.items():
-                    self._controls[name].put(value)
-            if not all(isinstance(self._controls[name], parts.Toggle) for name in values):
-                self._end_motion()
-            self.refresh()
+            before = {name: value for name, value in self.values.items() if name in values}
+            try:
+                self._put(values)
+                if not all(isinstance(self._controls[name], parts.Toggle) for name in values):
+                    self._end_motion()
+                self.refresh()
+            except Exception as error:  # a value that is refused moves nothing
+                self._put(before)
+                self.refresh()
+                self.line.value = f"{type(error).__name__}: {error}"
+                raise
 
     def reset(self) -> None:
         """Every control back to where it started, and the end of a motion."""
@@ -227,8 +236,7 @@ class Panel(ipywidgets.VBox):
 
     def close(self) -> None:
         """Close every widget of the panel: nothing of it stays in the kernel or the page."""
-        for key in [key for key, panel in _open.items() if panel is self]:
-            del _open[key]
+        _open.pop(self, None)
         _close_tree(self)
         # The notebook's Out[...] keeps the panel for ever: what it drew must not stay with it.
         if hasattr(self, "viewer"):  # a panel that was refused half-way has none
@@ -267,6 +275,11 @@ class Panel(ipywidgets.VBox):
         )
         return [ipywidgets.Box(self.below, layout=flow)]
 
+    def _put(self, values):
+        with self._silence():
+            for name, value in values.items():
+                self._controls[name].put(value)
+
     def _updated(self):
         """The values, once the scene shows them; read again where `update` put something into a control."""
         with self._silence():
@@ -293,6 +306,8 @@ class Panel(ipywidgets.VBox):
     def _listen(self, widget):
         if widget.has_trait("value"):
             widget.observe(self._value_changed, "value")
+        if widget.has_trait("touched"):
+            widget.observe(self._answer, "touched")
         if widget.has_trait("live"):
             widget.observe(self._drag_ended, "live")
         if isinstance(widget, parts.Action) or getattr(widget, "clickable", False):
@@ -305,6 +320,11 @@ class Panel(ipywidgets.VBox):
                 if not isinstance(change.owner, parts.Toggle):
                     self._end_motion()
                 self.refresh(live=getattr(change.owner, "live", False))
+
+    def _answer(self, _change):
+        """Tell the page that its change has arrived, whatever came of it."""
+        with self._lock:
+            self.viewer.answers += 1
 
     def _frame_changed(self, _change):
         """The page shows another frame of the motion, or rests at one."""
@@ -348,19 +368,21 @@ class Panel(ipywidgets.VBox):
             self._quiet = before
 
     def _replace_previous(self):
-        key = (self.name, _cell())
-        if key in _open:
-            _open[key].close()
-        _open[key] = self
+        cell, run = _running()
+        for panel, (name, its_cell, its_run) in list(_open.items()):
+            if (name, its_cell) == (self.name, cell) and (cell is None or its_run != run):
+                panel.close()
+        _open[self] = self.name, cell, run
 
 
-def _cell():
-    """The id of the notebook cell that runs now, where the front end tells it."""
+def _running():
+    """The notebook cell that runs now, and which of its runs this is, where the front end tells it."""
     with contextlib.suppress(Exception):
         from IPython import get_ipython
 
-        return get_ipython().kernel.get_parent()["metadata"]["cellId"]
-    return None
+        parent = get_ipython().kernel.get_parent()
+        return parent["metadata"]["cellId"], parent["header"]["msg_id"]
+    return None, None
 
 
 def _close_tree(widget):

@@ -9,6 +9,7 @@ view, a late view and a reloaded page come right by themselves:
     motion      many poses at once, stepped in the page
 """
 
+import contextlib
 import functools
 import itertools
 from collections.abc import Sequence
@@ -27,7 +28,7 @@ from coursekit.view.picture import png
 from coursekit.view.scene import Scene
 
 STATIC = Path(__file__).parent / "static"
-_SCRIPTS = ("bundle.js", "stage.js", "actors.js", "player.js", "viewer.js")
+_SCRIPTS = ("html.js", "bundle.js", "stage.js", "actors.js", "player.js", "viewer.js")
 
 
 def script() -> str:
@@ -47,6 +48,8 @@ class Viewer(anywidget.AnyWidget):
     quality : {"auto", "high", "low"}
         "auto" draws half the pixels while something moves, if frames are slow; "low" also leaves out shadows
         and reflections (for computers without a graphics processor).
+    lock : context manager, optional
+        Held while a picture is drawn that the page asks for: nothing may change the scene meanwhile.
     """
 
     _esm = script()
@@ -66,11 +69,22 @@ class Viewer(anywidget.AnyWidget):
     motion_texts: traitlets.List = traitlets.List().tag(sync=True)
     frame = traitlets.Int(-1).tag(sync=True)  # pose of the motion that the page shows; -1: `pose` is shown
     playing = traitlets.Bool(False).tag(sync=True)  # more frames will follow
+    controls: traitlets.List = traitlets.List().tag(
+        sync=True
+    )  # references to the models of a panel's controls
+    answers = traitlets.Int(0).tag(sync=True)  # counts what the kernel has answered, for pages that wait
     height = traitlets.Int(420).tag(sync=True)
     quality = traitlets.Enum(["auto", "high", "low"], "auto").tag(sync=True)
 
-    def __init__(self, scene: Scene, height: int = 420, quality: str = "auto") -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        height: int = 420,
+        quality: str = "auto",
+        lock: contextlib.AbstractContextManager | None = None,
+    ) -> None:
         self.scene = scene
+        self._lock = lock or contextlib.nullcontext()
         self.messages = meshcat.Messages()
         self.messages.update(scene)
         self._arms = [arm.robot for arm in scene.robots.values() if arm.style != "ghost"]
@@ -213,7 +227,9 @@ class Viewer(anywidget.AnyWidget):
             self.send({"type": "bundle"}, buffers=[meshcat.bundle()])
         elif content.get("type") == "need_png":
             size = int(content.get("width", 640)), int(content.get("height", 420))
-            self.send({"type": "png"}, buffers=[png(self.scene, *size)])
+            with self._lock:
+                if self.scene is not None:  # closed meanwhile
+                    self.send({"type": "png"}, buffers=[png(self.scene, *size)])
 
 
 def mimebundle(widget: ipywidgets.Widget, text: str, scene: Scene, height: int) -> tuple[dict, dict]:

@@ -250,7 +250,7 @@ def test_every_widget_has_a_stable_repr():
         (lambda: joint_sliders(robots.kuka_kr6()).put([1, 2]), r"'theta' takes 6 numbers, got shape \(2,\)"),
         (
             lambda: Panel("p", Scene(), [Slider("x"), Slider("x")]),
-            "panel 'p': two controls have the same name",
+            "panel 'p': two controls are called 'x'",
         ),
         (lambda: Panel("p", Scene(), [Slider("x")]).set(y=1), "panel 'p' has no control 'y'; it has: x"),
     ],
@@ -266,3 +266,96 @@ def test_values_are_read_once_a_change(made, monkeypatch):
     monkeypatch.setattr(Sliders, "get", lambda self: read.append(self.name) or original(self))
     as_the_browser(panel._controls["theta"].sliders[0], value=30.0)
     assert read == ["theta"]
+
+
+# -- what went wrong once
+
+
+def test_a_set_that_is_refused_leaves_everything_where_it_was(made):
+    kr6 = robots.kuka_kr6()
+    panel = made(small_panel())
+    panel.set(theta=[0.1, -1, 1, 0, 0.2, 0], on=True)
+    before = panel.values["theta"]
+    for wrong in ({"theta": [0.3, -1, 1, 0, 99, 0]}, {"on": False, "theta": [1, 2]}):
+        with pytest.raises(ValueError, match=r"'theta5' goes over|takes 6 numbers"):
+            panel.set(**wrong)
+        np.testing.assert_array_equal(panel.values["theta"], before)
+        np.testing.assert_array_equal(panel.scene.robots["robot"].theta, before)
+        assert panel.values["on"] is True
+    poses = np.frombuffer(panel.viewer.pose).reshape(-1, 4, 4).transpose(0, 2, 1)
+    np.testing.assert_array_equal(poses, kr6.displacements(before))
+
+
+def test_a_set_that_the_explorer_refuses_is_taken_back(made):
+    def update(values):
+        if values["x"] > 0.5:
+            raise ValueError("too far")
+
+    panel = made(Panel("error", Scene(), [Slider("x", 0.2)], update))
+    with pytest.raises(ValueError, match="too far"):
+        panel.set(x=0.9)
+    assert panel.values["x"] == 0.2
+    assert panel.line.value == "ValueError: too far"
+
+
+def test_a_choice_takes_what_it_gives():
+    arms = robots.all()
+    choice = Choice("robot", arms)
+    choice.put("ur5")
+    choice.put(choice.get())
+    assert choice.value == "ur5"
+    choice.put(arms["puma560"])
+    assert choice.get() is arms["puma560"]
+    vectors = Choice("v", {"ones": np.ones(3), "zeros": np.zeros(3)})  # == of arrays is no truth value
+    vectors.put(vectors.meaning["zeros"])
+    assert vectors.value == "zeros"
+    with pytest.raises(ValueError, match="choice 'v' has no 7; it has: ones, zeros"):
+        vectors.put(7)
+
+
+def test_a_table_named_like_a_control_is_refused():
+    table = Table("x", lambda values: ([], []))
+    with pytest.raises(ValueError, match="panel 'p': two controls are called 'x'"):
+        Panel("p", Scene(), [Slider("x")], below=[table])
+
+
+def test_a_stock_widget_stands_among_the_controls(made):
+    button = ipywidgets.Button(description="mine")
+    panel = made(Panel("p", Scene(), [Slider("x"), button], below=[ipywidgets.HTML("<b>below</b>")]))
+    assert panel.values == {"x": 0.0}
+    column = panel.children[0].children[0]
+    assert button in column.children
+
+
+def test_two_panels_of_one_cell_live_and_both_go_when_it_runs_again(made, monkeypatch):
+    from coursekit.view import panel as module
+
+    run = ["cell", "first run"]
+    monkeypatch.setattr(module, "_running", lambda: tuple(run))
+    one, other = made(small_panel()), made(small_panel())
+    assert one.scene is not None and other.scene is not None
+    run[1] = "second run"
+    third = made(small_panel())
+    assert (one.scene, other.scene) == (None, None) and third.scene is not None
+
+
+def test_a_picture_is_drawn_between_two_changes_and_never_during_one(made, monkeypatch):
+    import threading
+
+    from coursekit.view import viewer as module
+
+    panel, drawn = made(small_panel()), threading.Event()
+    monkeypatch.setattr(module, "png", lambda *_: drawn.set() or b"")
+    with panel._lock:
+        asking = threading.Thread(target=panel.viewer._answer, args=(panel.viewer, {"type": "need_png"}, []))
+        asking.start()
+        assert not drawn.wait(0.2)
+    asking.join()
+    assert drawn.is_set()
+
+
+def test_every_change_is_answered(made):
+    panel = made(small_panel())
+    before = panel.viewer.answers
+    as_the_browser(panel._controls["on"], value=False, touched=1)  # nothing changed, and yet somebody asked
+    assert panel.viewer.answers > before

@@ -2,13 +2,6 @@
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
 
-function element(tag, attributes = {}, ...children) {
-  const node = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
-  node.append(...children);
-  return node;
-}
-
 // show(k) draws frame k of the motion; report(k, playing) tells the kernel, which shows the same; wake() asks for
 // animation frames.
 function makePlayer({ show, report, wake }) {

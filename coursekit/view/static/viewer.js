@@ -30,14 +30,21 @@ export default function () {
     async render({ model, el, signal }) {
       const pane = element("div", { class: "ck-pane", tabindex: 0, role: "group", "aria-roledescription": "3D view",
         "data-lm-suppress-shortcuts": "true", title: "drag: turn, right drag: move, wheel after a click: zoom; keys: arrows, + and -, Home" });
-      const buttons = element("div", { class: "ck-views", role: "group", "aria-label": "views" });
+      const buttons = element("div", { ...own, class: "ck-views", role: "group", "aria-label": "views" });
       const box = element("div", { class: "ck-viewer" }, pane, buttons);
       const text = element("div", { class: "ck-text", "aria-live": "polite" });
+      const silence = element("div", { class: "ck-silence", role: "status" });
+      keepKeys(buttons);
+      pane.addEventListener("contextmenu", (event) => { // the right button moves the picture
+        event.preventDefault();
+        event.stopPropagation();
+      });
       box.style.height = `${model.get("height")}px`;
       const wait = element("p", { class: "ck-wait" }, "The 3D view is on its way …");
       pane.append(wait);
       el.classList.add("ck-root");
-      el.append(box);
+      el.append(box, silence);
+      const unwatch = watchKernel(model, silence);
 
       let MeshCat, stage;
       try {
@@ -46,7 +53,12 @@ export default function () {
         wait.remove();
         stage = makeStage(MeshCat, pane, model.get("quality"));
       } catch (error) {
-        return showPicture(model, pane, views, error);
+        const end = showPicture(model, pane, views, error);
+        return () => {
+          unwatch();
+          end();
+          el.replaceChildren();
+        };
       }
       const { viewer } = stage;
       const labels = makeLabels(MeshCat.THREE, viewer, pane, stage.renderer);
@@ -118,7 +130,7 @@ export default function () {
         camera.lens(model.get("camera"));
         buttons.replaceChildren();
         for (const [name, where] of Object.entries(model.get("views"))) {
-          const button = element("button", { type: "button", class: "ck-button", title: `${name} view` }, name);
+          const button = element("button", { ...own, type: "button", class: "ck-button", title: `${name} view` }, name);
           button.onclick = () => camera.show(where);
           buttons.append(button);
         }
@@ -143,9 +155,8 @@ export default function () {
               console.error("[coursekit] a command of the scene failed", error); // and the rest is drawn all the same
             }
           }
-          const sources = model.get("ghosts").map((ghost) => ghost.src);
-          if (sources.length) drawGhosts(model.get("ghosts")); // their geometry may have been replaced
-          stage.moved();
+          if (model.get("ghosts").length) drawGhosts(model.get("ghosts")); // their geometry may have been replaced
+          onPose(); // what was drawn anew stands at the origin until it is placed
         },
         picture() {},
       };
@@ -165,6 +176,7 @@ export default function () {
 
       return () => { // the notebook keeps `el` and `model` of what is long gone: nothing may hang on them
         for (const [name, act] of Object.entries(changes)) model.off(`change:${name}`, act);
+        unwatch();
         delete box.coursekit;
         el.replaceChildren();
         views.delete(view);
@@ -208,5 +220,43 @@ function showPicture(model, pane, views, error) {
   views.add(view);
   model.on("change:pose", ask);
   ask();
-  return () => views.delete(view);
+  return () => {
+    clearTimeout(timer);
+    model.off("change:pose", ask);
+    views.delete(view);
+  };
+}
+
+// The kernel answers every change of a control. Where it does not, because it is busy, restarted or gone, somebody has
+// to say so: sliders go on moving.
+function watchKernel(model, line) {
+  const PATIENCE = 2500; // milliseconds
+  let timer = null, forget = () => {};
+  const asked = () => {
+    timer = timer || setTimeout(() => {
+      line.textContent = "The kernel does not answer: it is busy, was restarted or is gone. "
+        + "Numbers and plots are those of before; run the cell again if it stays so.";
+    }, PATIENCE);
+  };
+  const answered = () => {
+    clearTimeout(timer);
+    timer = null;
+    line.textContent = "";
+  };
+  model.on("change:answers", answered);
+  childModels(model, "controls").then((controls) => {
+    for (const control of controls) control.on("change:touched", asked);
+    forget = () => controls.forEach((control) => control.off("change:touched", asked));
+  });
+  return () => {
+    answered();
+    forget();
+    model.off("change:answers", answered);
+  };
+}
+
+// The models behind a trait that holds references to widgets.
+function childModels(model, name) {
+  const ids = model.get(name) || [];
+  return Promise.all(ids.map((id) => model.widget_manager.get_model(id.replace("IPY_MODEL_", ""))));
 }
