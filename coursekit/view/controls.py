@@ -101,7 +101,7 @@ class Slider(Control):
         limits: tuple[float, float] | None = None,
         label: str | None = None,
     ) -> None:
-        self._shown_per_si, self._exact = 1.0, (0.0, 0.0)
+        self.shown_per_si, self._exact = 1.0, (0.0, 0.0)
         super().__init__(name, label)
         self.fit(start, low, high, unit, step, limits)
 
@@ -118,7 +118,7 @@ class Slider(Control):
         name = self.name
         if not low < high:
             raise ValueError(f"slider {name!r}: low must be below high, got {low} and {high}")
-        self._shown_per_si = _SHOWN_PER_SI.get(unit, 1.0)
+        self.shown_per_si = _SHOWN_PER_SI.get(unit, 1.0)
         low, high = min(low, start), max(high, start)
         shown = [self._shown(x) for x in (low, high)]
         step = step or {"deg": 1.0, "mm": 10.0}.get(unit, (high - low) / 100)
@@ -137,7 +137,7 @@ class Slider(Control):
     def si(self) -> float:
         """The value in SI units; exactly what was `put`, as long as nobody moved the slider since."""
         shown, si = self._exact
-        return si if self.value == shown else self.value / self._shown_per_si
+        return si if self.value == shown else self.value / self.shown_per_si
 
     def get(self) -> float:
         return self.si
@@ -161,7 +161,7 @@ class Slider(Control):
         self._exact = (self.value, float(value))
 
     def _shown(self, si):
-        return float(np.round(si * self._shown_per_si, 10)) + 0.0  # 170.00000000000003 degrees is 170
+        return float(np.round(si * self.shown_per_si, 10)) + 0.0  # 170.00000000000003 degrees is 170
 
     @traitlets.validate("value")
     def _inside(self, proposal):

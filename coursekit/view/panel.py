@@ -76,6 +76,11 @@ class Panel(ipywidgets.VBox):
         What the stored one-line text calls this explorer (default: name).
     height : int
         Of the picture, pixels.
+    drivers : function(values), optional
+        The slider of each joint of the robot "robot" (or None), by which the page moves it before the kernel
+        answers. By default those of a control called "theta", where there is one for each joint.
+    computed : list of str
+        Paths of what `update` alone can place for another theta: a page without a kernel hides it.
     """
 
     def __init__(
@@ -89,12 +94,16 @@ class Panel(ipywidgets.VBox):
         title: str | None = None,
         height: int = 430,
         quality: str = "auto",
+        drivers: Callable[[dict], Sequence[parts.Slider | None]] | None = None,
+        computed: Sequence[str] = (),
     ) -> None:
         self.name = name
         self.title = name if title is None else title
         self.scene = scene
         self.below = list(below)
+        self.computed = list(computed)
         self._update = update
+        self._drivers = drivers or self._theta_sliders
         self._text = text
         self._lock = threading.RLock()
         self._quiet, self._was_put = False, False
@@ -127,6 +136,7 @@ class Panel(ipywidgets.VBox):
             self._listen(control)
         touchable = [widget for widget in self._widgets() if widget.has_trait("touched")]
         self.viewer.controls = [f"IPY_MODEL_{widget.model_id}" for widget in touchable]
+        self.viewer.driven_by(self._drivers(values))
         self.viewer.observe(self._frame_changed, ["frame", "playing"])
         self._replace_previous()
 
@@ -174,6 +184,7 @@ class Panel(ipywidgets.VBox):
         with self._lock:
             try:
                 values = self._updated()
+                self.viewer.driven_by(self._drivers(values))
                 self.viewer.sync(self.scene, self.motion and self.motion.frame)
                 self.line.value = self._words(values)
                 for output in self.below:
@@ -245,6 +256,7 @@ class Panel(ipywidgets.VBox):
         self.scene = None  # type: ignore[assignment]  # closed: nothing may use it any more
         self.children = []
         self._update = self._text = None
+        self._drivers = self._theta_sliders
 
     # -- making it
 
@@ -292,6 +304,14 @@ class Panel(ipywidgets.VBox):
         if self.motion:
             self.motion.arm.theta = self.motion.theta
         return self.values if self._was_put else values
+
+    def drivers(self) -> Sequence[parts.Slider | None]:
+        """The slider of each joint of the robot "robot", by which the page moves it; [] where it cannot."""
+        return self._drivers(self.values) if self.viewer.drive else []
+
+    def _theta_sliders(self, _values):
+        sliders = self._controls.get("theta")
+        return sliders.used if isinstance(sliders, parts.JointSliders) else []
 
     def _words(self, values):
         return self._text(values) if self._text is not None else self.scene.text()

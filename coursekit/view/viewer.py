@@ -23,17 +23,18 @@ import traitlets
 from numpy.typing import ArrayLike
 
 from coursekit.view import meshcat
+from coursekit.view.controls import Slider
 from coursekit.view.meshcat import column_major
 from coursekit.view.picture import png
 from coursekit.view.scene import Scene
 
 STATIC = Path(__file__).parent / "static"
-_SCRIPTS = ("html.js", "bundle.js", "stage.js", "actors.js", "player.js", "viewer.js")
+_SCRIPTS = ("html", "bundle", "stage", "actors", "player", "kinematics", "follow", "viewer")
 
 
 def script() -> str:
     """The page's side of the viewer: one JavaScript module, joined from the files in `static/`."""
-    return "\n".join((STATIC / name).read_text(encoding="utf-8") for name in _SCRIPTS)
+    return "\n".join((STATIC / f"{name}.js").read_text(encoding="utf-8") for name in _SCRIPTS)
 
 
 class Viewer(anywidget.AnyWidget):
@@ -69,6 +70,8 @@ class Viewer(anywidget.AnyWidget):
     motion_texts: traitlets.List = traitlets.List().tag(sync=True)
     frame = traitlets.Int(-1).tag(sync=True)  # pose of the motion that the page shows; -1: `pose` is shown
     playing = traitlets.Bool(False).tag(sync=True)  # more frames will follow
+    drive = traitlets.Dict().tag(sync=True)  # how the page moves an arm by its sliders, see `driven_by`
+    theta: traitlets.List = traitlets.List().tag(sync=True)  # where that arm is in `pose`
     controls: traitlets.List = traitlets.List().tag(
         sync=True
     )  # references to the models of a panel's controls
@@ -121,6 +124,25 @@ class Viewer(anywidget.AnyWidget):
         with self.hold_sync():
             self.motion, self.motion_poses, self.motion_texts = {}, b"", []
             self.frame, self.playing = -1, False
+
+    def driven_by(self, sliders: Sequence[Slider | None]) -> None:
+        """Let the page itself move the robot "robot" by these sliders, one or None for each joint.
+
+        No slider at all: only the kernel moves it.
+        """
+        arm = self.scene.robots.get("robot")
+        if arm is None or len(sliders) != arm.robot.n:
+            self.drive = {}
+            return
+        robot = arm.robot
+        self.drive = {
+            "path": arm.path,
+            "name": robot.name,
+            "screws": robot.S.T.tolist(),
+            "M": robot.M.T.ravel().tolist(),
+            "sliders": [slider and f"IPY_MODEL_{slider.model_id}" for slider in sliders],
+            "per": [slider.shown_per_si if slider else 1.0 for slider in sliders],
+        }
 
     def set_pose(self, transforms: ArrayLike) -> None:
         """Move what moves: transforms (k, 4, 4) in the order of `scene.moving`, in one message."""
@@ -197,6 +219,7 @@ class Viewer(anywidget.AnyWidget):
             "ghosts": [dict(ghost) for ghost in scene.ghosts],
             "moving": list(scene.moving),
             "pose": column_major(scene.pose()) if len(scene.moving) else b"",
+            "theta": scene.robots["robot"].theta.tolist() if "robot" in scene.robots else [],
             "camera": dict(scene.camera),
             "views": dict(scene.views),
             "description": scene.text(),

@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 import ipywidgets
 
 from coursekit.kinematics.robot import Robot
-from coursekit.view.controls import Control, Sliders
+from coursekit.view.controls import Control, JointSliders, Slider, Sliders
 from coursekit.view.panel import Panel
 from coursekit.view.scene import Scene
 
@@ -20,10 +20,12 @@ class Explorer:
 
     name: ClassVar[str]  # of the panel
     title: ClassVar[str]  # what the stored line of text calls it
+    computed: ClassVar[tuple[str, ...]] = ()  # paths of what only `update` can place for another theta
 
     def __init__(self, robot: Robot) -> None:
         self.robot = robot
         self.scene = Scene()
+        self.joints: JointSliders | None = None  # those of theta, where there are some
         self.panel: Panel | None = None
 
     @property
@@ -44,6 +46,10 @@ class Explorer:
         """Make the scene show these values of the controls, in radians and metres."""
         raise NotImplementedError
 
+    def drivers(self, values: dict[str, Any]) -> Sequence[Slider | None]:
+        """The slider of each joint, where the page can move the arm by them before the kernel answers."""
+        return self.joints.used if self.joints else []
+
     def words(self, values: dict[str, Any]) -> str:
         """The numbers of the picture, for everyone."""
         raise NotImplementedError
@@ -52,6 +58,15 @@ class Explorer:
         """The panel, `height` pixels of picture."""
         controls, below = self.controls(), self.below()
         self.panel = Panel(
-            self.name, self.scene, controls, self.update, self.words, below, self.title, height
+            self.name,
+            self.scene,
+            controls,
+            self.update,
+            self.words,
+            below,
+            self.title,
+            height,
+            drivers=self.drivers,
+            computed=self.computed,
         )
         return self.panel

@@ -46,6 +46,7 @@ class _Jacobians(Explorer):
     """The ellipsoids of the arm as it stands; Newton and damped least squares from there to the target."""
 
     name, title = "jacobians", "Explorer of Jacobian methods"
+    computed = ("/ck/linear", "/ck/angular")
 
     def __init__(self, robot):
         super().__init__(robot)

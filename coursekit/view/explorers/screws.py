@@ -33,6 +33,7 @@ class _Screws(Explorer):
     def __init__(self, robot):
         super().__init__(robot)
         self.frames = _frames(robot)
+        self.turn = Slider("turn", 0.0, -np.pi, np.pi, unit="deg", label="turn this joint")
         self.origins = robot.link_frames(np.zeros(robot.n))[:, :3, 3]
         self.arm = self.scene.robot(robot, np.zeros(robot.n))
         self.arm.look(solid=True, skeleton=True)
@@ -42,8 +43,11 @@ class _Screws(Explorer):
             Choice("joint", {f"joint {i + 1}": i for i in range(self.robot.n)}, start="joint 2"),
             Choice("frame", self.frames, label="seen from"),
             Slider("slide", 0.0, -0.3, 0.3, unit="mm", label="q along the axis"),
-            Slider("turn", 0.0, -np.pi, np.pi, unit="deg", label="turn this joint"),
+            self.turn,
         ]
+
+    def drivers(self, values):
+        return [self.turn if k == values["joint"] else None for k in range(self.robot.n)]
 
     def update(self, values):
         i, scene = values["joint"], self.scene

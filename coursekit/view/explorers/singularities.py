@@ -45,6 +45,7 @@ def explore_singularities(robot: Robot | None = None, height: int = 470) -> Pane
 
 class _Singularities(Explorer):
     name, title = "singularities", "Explorer of singularities"
+    computed = ("/ck/lost", "/ck/meets_all")
 
     def __init__(self, arms):
         super().__init__(arms[0])

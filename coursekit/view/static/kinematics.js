@@ -38,3 +38,22 @@ export function displacements(screws, theta) {
   let T = null;
   return screws.map((S, k) => (T = T ? product(T, exponential(S, theta[k])) : exponential(S, theta[k])));
 }
+
+/**
+ * A line in words, as Scene.text in Python says it, for pages where no kernel does.
+ * @param {{name: string, screws: number[][], M: number[]}} arm @param {number[]} theta
+ */
+export function describe({ name, screws, M }, theta) {
+  const slides = screws.map(([wx, wy, wz]) => !wx && !wy && !wz);
+  const round = (x) => { // as Python rounds: a tie goes to the even digit
+    const near = Number(x.toFixed(7));
+    const tie = Math.abs((4 * near) % 2) === 1;
+    return (tie ? (2 * Math.round(5 * near)) / 10 : near).toFixed(1).replace(/^-(0\.0)$/, "$1");
+  };
+  const say = (q, k) => (slides[k] ? [1000 * q, " mm"] : [(180 / Math.PI) * q, " deg"]);
+  const joints = slides.includes(true)
+    ? `(${theta.map((q, k) => round(say(q, k)[0]) + say(q, k)[1]).join(", ")})`
+    : `(${theta.map((q, k) => round(say(q, k)[0])).join(", ")}) deg`;
+  const tool = product(displacements(screws, theta).at(-1), M).slice(12, 15);
+  return `${name}: joints ${joints}; tool at (${tool.map((x) => round(1000 * x)).join(", ")}) mm`;
+}

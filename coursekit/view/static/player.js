@@ -73,6 +73,7 @@ function makePlayer({ show, report, wake }) {
   return {
     bar,
     playing: () => playing,
+    loaded: () => Boolean(motion),
     frame: () => frame,
     // a new motion, or null for none; at = the frame to rest at, or play from the start
     load(next, at = null) {

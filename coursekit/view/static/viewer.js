@@ -1,5 +1,5 @@
 // The Viewer widget: scene commands, poses and motions from the kernel in; pictures out.
-// bundle.js, stage.js, actors.js and player.js stand above this file: viewer.py joins them into one module.
+// viewer.py joins this file and those it needs, which stand above it, into one module.
 
 export default function () {
   const commands = new Map(); // key -> bytes of one meshcat command: the whole scene, for views that come later
@@ -46,6 +46,32 @@ export default function () {
       el.append(box, silence);
       const unwatch = watchKernel(model, silence);
 
+      // --- a motion: the player says which frame, whoever draws it
+      let draw = () => {}, wake = animate;
+      const player = makePlayer({
+        wake: () => wake(),
+        show(k) {
+          draw(k);
+          const lines = model.get("motion_texts");
+          text.textContent = lines.length ? lines[k] : "";
+          text.hidden = !lines.length;
+        },
+        report(k, playing) {
+          model.set("frame", k);
+          model.set("playing", playing);
+          text.setAttribute("aria-live", playing ? "off" : "polite"); // read aloud where it rests, not 30 times a second
+          if (!playing) text.textContent = `${text.textContent}`;
+          model.save_changes(); // the widgets' own throttle: while the kernel is busy the latest frame waits
+        },
+      });
+      function animate() { // where no stage draws frames
+        requestAnimationFrame((now) => {
+          player.tick(now);
+          if (player.playing()) animate();
+        });
+      }
+      el.append(player.bar, text);
+
       let MeshCat, stage;
       try {
         MeshCat = await page().meshcat;
@@ -53,7 +79,7 @@ export default function () {
         wait.remove();
         stage = makeStage(MeshCat, pane, model.get("quality"));
       } catch (error) {
-        const end = showPicture(model, pane, views, error);
+        const end = showPicture(model, pane, views, player, error);
         return () => {
           unwatch();
           end();
@@ -76,38 +102,34 @@ export default function () {
         });
         stage.moved();
       };
-      const player = makePlayer({
-        wake: stage.wake,
-        show(k) {
-          place(played, poses, k);
-          const lines = model.get("motion_texts");
-          text.textContent = lines.length ? lines[k] : "";
-          text.hidden = !lines.length;
-        },
-        report(k, playing) {
-          model.set("frame", k);
-          model.set("playing", playing);
-          text.setAttribute("aria-live", playing ? "off" : "polite"); // read aloud where it rests, not 30 times a second
-          if (!playing) text.textContent = `${text.textContent}`;
-          model.save_changes(); // the widgets' own throttle: while the kernel is busy the latest frame waits
-        },
+      let slid = false;
+      const follower = makeFollower(model, () => {
+        player.load(null); // a hand on a slider ends a motion
+        slid = true;
+        stage.moved();
       });
+      wake = stage.wake;
+      draw = (k) => {
+        place(played, poses, k);
+        const thetas = model.get("motion_theta"); // of a page without a kernel, which would put the sliders there
+        if (thetas) follower.put(thetas[k]);
+      };
       stage.playing = player.playing;
       stage.beforeFrame.push((now) => {
-        if (pose) {
-          place(moving, pose, 0);
-          if (model.get("frame") >= 0) place(played, poses, player.frame()); // further than the kernel knows
-        }
+        if (pose) place(moving, pose, 0);
+        if ((pose || slid) && follower.isAhead()) place(...follower.pose(), 0);
+        else if (pose && player.loaded()) place(played, poses, player.frame()); // further than the kernel knows
         pose = null;
+        slid = false;
         player.tick(now);
       });
       stage.afterFrame.push(labels.place);
-      el.append(player.bar, text);
 
       const onPose = () => {
         moving = model.get("moving").map(splitPath);
         if (model.get("frame") >= 0) player.follow(model.get("frame"));
         else text.hidden = true;
+        follower.compare();
         pose = floatsOf(model.get("pose"));
         stage.moved();
       };
@@ -169,14 +191,15 @@ export default function () {
       onMotion(Math.max(0, model.get("frame")));
       views.add(view);
 
-      const changes = { pose: onPose, moving: onPose, frame: onPose, labels: onLabels, ghosts: onGhosts, camera: onCamera, description: onText,
+      const changes = { pose: onPose, theta: onPose, moving: onPose, frame: onPose, labels: onLabels, ghosts: onGhosts, camera: onCamera, description: onText,
         motion: () => onMotion(null), height: () => (box.style.height = `${model.get("height")}px`) };
       for (const [name, act] of Object.entries(changes)) model.on(`change:${name}`, act);
-      box.coursekit = { stage, viewer, player, page: page() }; // for the browser's console and the tests
+      box.coursekit = { stage, viewer, player, follower, page: page() }; // for the browser's console and the tests
 
       return () => { // the notebook keeps `el` and `model` of what is long gone: nothing may hang on them
         for (const [name, act] of Object.entries(changes)) model.off(`change:${name}`, act);
         unwatch();
+        follower.end();
         delete box.coursekit;
         el.replaceChildren();
         views.delete(view);
@@ -198,7 +221,7 @@ function keys(key, camera, player, home) {
 }
 
 // No WebGL, or a policy that forbids the bundle: the picture the kernel draws, renewed at most twice a second.
-function showPicture(model, pane, views, error) {
+function showPicture(model, pane, views, player, error) {
   const image = element("img", { class: "ck-picture", alt: model.get("description") });
   const reason = /WebGL/i.test(error.message) ? "this browser has no WebGL" : error.message;
   pane.replaceChildren(image, element("p", { class: "ck-wait" }, `A still picture in place of the 3D view: ${reason}.`));
@@ -217,12 +240,16 @@ function showPicture(model, pane, views, error) {
       image.alt = model.get("description");
     },
   };
+  const onMotion = () => player.load(model.get("motion"));
   views.add(view);
   model.on("change:pose", ask);
+  model.on("change:motion", onMotion);
+  onMotion();
   ask();
   return () => {
     clearTimeout(timer);
     model.off("change:pose", ask);
+    model.off("change:motion", onMotion);
     views.delete(view);
   };
 }
