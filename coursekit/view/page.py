@@ -11,7 +11,7 @@ from coursekit.view.viewer import STATIC, Viewer, script
 _PAGE = (STATIC / "page.html").read_text(encoding="utf-8")
 _OF_A_SLIDER = ("label", "unit", "value", "min", "max", "step", "start", "limits", "digits")
 _OF_A_VIEWER = ("labels", "ghosts", "moving", "camera", "views", "description", "quality", "height", "drive")
-_OF_A_VIEWER += ("theta", "motion", "motion_texts", "frame")
+_AND_ITS_MOTION = ("theta", "motion", "motion_texts", "frame")
 
 
 def to_html(shown: Panel | Viewer) -> str:
@@ -26,7 +26,7 @@ def to_html(shown: Panel | Viewer) -> str:
     >>> panel.close()
     """
     viewer = shown.viewer if isinstance(shown, Panel) else shown
-    state = {name: getattr(viewer, name) for name in _OF_A_VIEWER}
+    state = {name: getattr(viewer, name) for name in (*_OF_A_VIEWER, *_AND_ITS_MOTION)}
     binary = {"pose": viewer.pose, "motion_poses": viewer.motion_poses}
     state |= {name: _base64(data) for name, data in binary.items()}
     state["commands"] = {key: _base64(data) for key, data in viewer.messages.packed.items()}

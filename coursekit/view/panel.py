@@ -34,6 +34,7 @@ import ipywidgets
 import numpy as np
 from numpy.typing import ArrayLike
 
+from coursekit.view import cells
 from coursekit.view import controls as parts
 from coursekit.view.scene import Arm, Scene
 from coursekit.view.viewer import Viewer, mimebundle
@@ -51,9 +52,6 @@ class Motion:
     def theta(self) -> np.ndarray:
         """The configuration that is shown, (n,)."""
         return self.thetas[self.frame]
-
-
-_open: dict = {}  # panel -> (name, cell, run of the cell) that shows it
 
 
 class Panel(ipywidgets.VBox):
@@ -138,7 +136,7 @@ class Panel(ipywidgets.VBox):
         self.viewer.controls = [f"IPY_MODEL_{widget.model_id}" for widget in touchable]
         self.viewer.driven_by(self._drivers(values))
         self.viewer.observe(self._frame_changed, ["frame", "playing"])
-        self._replace_previous()
+        cells.take_place(self)
 
     # -- values
 
@@ -185,7 +183,7 @@ class Panel(ipywidgets.VBox):
             try:
                 values = self._updated()
                 self.viewer.driven_by(self._drivers(values))
-                self.viewer.sync(self.scene, self.motion and self.motion.frame)
+                self.viewer.sync(self.scene, self.motion.frame if self.motion else None)
                 self.line.value = self._words(values)
                 for output in self.below:
                     if live and hasattr(output, "has_time") and not output.has_time():
@@ -247,7 +245,7 @@ class Panel(ipywidgets.VBox):
 
     def close(self) -> None:
         """Close every widget of the panel: nothing of it stays in the kernel or the page."""
-        _open.pop(self, None)
+        cells.SHOWN.pop(self, None)
         _close_tree(self)
         # The notebook's Out[...] keeps the panel for ever: what it drew must not stay with it.
         if hasattr(self, "viewer"):  # a panel that was refused half-way has none
@@ -386,23 +384,6 @@ class Panel(ipywidgets.VBox):
             yield
         finally:
             self._quiet = before
-
-    def _replace_previous(self):
-        cell, run = _running()
-        for panel, (name, its_cell, its_run) in list(_open.items()):
-            if (name, its_cell) == (self.name, cell) and (cell is None or its_run != run):
-                panel.close()
-        _open[self] = self.name, cell, run
-
-
-def _running():
-    """The notebook cell that runs now, and which of its runs this is, where the front end tells it."""
-    with contextlib.suppress(Exception):
-        from IPython import get_ipython
-
-        parent = get_ipython().kernel.get_parent()
-        return parent["metadata"]["cellId"], parent["header"]["msg_id"]
-    return None, None
 
 
 def _close_tree(widget):

@@ -8,7 +8,7 @@ class Explorer:
 
     def __init__(self, notebook, panel, robot):
         self.notebook, self.page, self.robot = notebook, notebook.page, robot
-        panels = "__import__('coursekit.view.panel', fromlist=['_open'])._open"
+        panels = "__import__('coursekit.view.cells', fromlist=['SHOWN']).SHOWN"
         self.panel = f"next(p for p in {panels} if p.name == {panel!r})"
 
     def kernel(self, attribute):

@@ -36,8 +36,13 @@ def test_a_motion_plays_to_its_last_pose_and_can_be_scrubbed(notebook, lab):
     fourth = kr6.fk(kr6.home + 0.5 * 3 / 100)
     np.testing.assert_allclose(notebook.wait_transform(TOOL, fourth), fourth, rtol=0, atol=1e-12)
 
-    page.locator("[role=slider]").first.press("PageUp")  # a slider ends the motion
-    expected = kr6.fk(kr6.home + np.radians([10, 0, 0, 0, 0, 0]))
+    notebook.idle()
+    notebook.rest()
+    page.locator("[role=slider]").first.press("PageUp")  # a slider ends the motion, where it rests
+    notebook.idle()
+    theta = notebook.kernel("panel.values['theta'].tolist()")
+    np.testing.assert_allclose(theta, kr6.home + 0.5 * 3 / 100 + np.radians([10, 0, 0, 0, 0, 0]), atol=1e-9)
+    expected = kr6.fk(theta)
     np.testing.assert_allclose(notebook.wait_transform(TOOL, expected), expected, rtol=0, atol=1e-12)
     assert notebook.errors == []
 

@@ -328,10 +328,10 @@ def test_a_stock_widget_stands_among_the_controls(made):
 
 
 def test_two_panels_of_one_cell_live_and_both_go_when_it_runs_again(made, monkeypatch):
-    from coursekit.view import panel as module
+    from coursekit.view import cells
 
     run = ["cell", "first run"]
-    monkeypatch.setattr(module, "_running", lambda: tuple(run))
+    monkeypatch.setattr(cells, "running", lambda: tuple(run))
     one, other = made(small_panel()), made(small_panel())
     assert one.scene is not None and other.scene is not None
     run[1] = "second run"
