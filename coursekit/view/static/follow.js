@@ -2,7 +2,7 @@
 // the kernel speaks of the same sliders, its pose is drawn and no longer ours.
 
 function makeFollower(model, moved) {
-  let sliders = [], ahead = false;
+  let sliders = [], ahead = false, over = false;
   const touched = () => {
     ahead = true;
     moved();
@@ -11,6 +11,7 @@ function makeFollower(model, moved) {
   const listen = async () => {
     const ids = (model.get("drive").sliders || []).map((id) => id && model.widget_manager.get_model(id.replace("IPY_MODEL_", "")));
     const found = await Promise.all(ids);
+    if (over) return; // closed meanwhile: nothing may hang on the sliders
     forget();
     sliders = found;
     ahead = false;
@@ -41,6 +42,7 @@ function makeFollower(model, moved) {
       sliders.forEach((slider, k) => slider && slider.set("value", values[k] * model.get("drive").per[k]));
     },
     end() {
+      over = true;
       forget();
       model.off("change:drive", listen);
     },

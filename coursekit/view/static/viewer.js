@@ -258,7 +258,7 @@ function showPicture(model, pane, views, player, error) {
 // to say so: sliders go on moving.
 function watchKernel(model, line) {
   const PATIENCE = 2500; // milliseconds
-  let timer = null, forget = () => {};
+  let timer = null, over = false, forget = () => {};
   const asked = () => {
     timer = timer || setTimeout(() => {
       line.textContent = "The kernel does not answer: it is busy, was restarted or is gone. "
@@ -272,10 +272,12 @@ function watchKernel(model, line) {
   };
   model.on("change:answers", answered);
   childModels(model, "controls").then((controls) => {
+    if (over) return;
     for (const control of controls) control.on("change:touched", asked);
     forget = () => controls.forEach((control) => control.off("change:touched", asked));
   });
   return () => {
+    over = true;
     answered();
     forget();
     model.off("change:answers", answered);
