@@ -191,3 +191,14 @@ def test_jupyterlab_has_the_courses_settings():
     shipped = PACKAGE / "view" / "static" / "overrides.json"
     installed = Path(sys.prefix) / "share" / "jupyter" / "lab" / "settings" / "overrides.json"
     assert json.loads(installed.read_text()) == json.loads(shipped.read_text())
+
+
+@pytest.mark.parametrize(
+    ("room", "place"),
+    [("lab", "share/jupyter/labextensions/coursekit"), ("server", "etc/jupyter/jupyter_server_config.d")],
+)
+def test_jupyterlab_has_what_moves_saved_explorers(room, place):
+    shipped = PACKAGE / "view" / "static" / room
+    for path in (path for path in shipped.rglob("*") if path.is_file()):
+        installed = Path(sys.prefix) / place / path.relative_to(shipped)
+        assert installed.read_bytes() == path.read_bytes(), "install again: pip install -e ."
