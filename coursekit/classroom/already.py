@@ -126,7 +126,8 @@ def _lines(exercise: Exercise, masks: list) -> str:
 def _rows_of_a_set(masks: list) -> str:
     counts = {(int(m[0].all(axis=1).sum()), len(m[0])) for m in masks}
     if len(counts) == 1 and 0 < next(iter(counts))[0] < next(iter(counts))[1]:
-        return "{} of your {} rows are right".format(*next(iter(counts)))
+        fine, rows = next(iter(counts))
+        return f"{fine} of your {rows} rows {'is' if fine == 1 else 'are'} right"
     return ""
 
 
@@ -155,4 +156,9 @@ def _cases(examples: list, good: list[bool]) -> str:
     wrong = [n for n in names if not all(fine[n])]
     if not right or not wrong:
         return ""
-    return f"right {_joined(right[:3])}, wrong {_joined(wrong[:3])}"
+    return f"right {_some(right)}, wrong {_some(wrong)}"
+
+
+def _some(names: list[str]) -> str:
+    """Two of them, and that there are more."""
+    return _joined(names) if len(names) < 3 else f"{names[0]}, {names[1]} and in {len(names) - 2} more cases"

@@ -202,6 +202,10 @@ def _explain(exercise: Exercise, function: Callable, error: Exception, arguments
     if frame is None:
         return Attempt(fault="error", text=f"it raises {text}")
     line = at - frame.f_code.co_firstlineno + 1
+    if frame.f_code is not getattr(function, "__code__", None) and (call := _call(error, function)):
+        # a function that it calls raises: what it was called with is the matter
+        frame, at, text = *call, f"{text}, in {frame.f_code.co_name}"
+        line = at - frame.f_code.co_firstlineno + 1
     text = f"line {line} of {frame.f_code.co_name} raises {text}{_source_line(frame.f_code, at)}"
     if told := _variables(frame, at):
         text += f"\n  there {told}"
@@ -212,6 +216,13 @@ def _place(error: Exception, function: Callable) -> tuple[FrameType | None, int]
     """(frame, line) of the student's code that is nearest to the error."""
     ours = [f for f in traceback.walk_tb(error.__traceback__) if not _is_library(f[0].f_code.co_filename)]
     return ours[-1] if ours else (None, 0)
+
+
+def _call(error: Exception, function: Callable) -> tuple[FrameType, int] | None:
+    """(frame, line) of the student's function itself, from which the call went out that raised."""
+    code = getattr(function, "__code__", None)
+    ours = [f for f in traceback.walk_tb(error.__traceback__) if f[0].f_code is code]
+    return ours[-1] if ours else None
 
 
 def _source_line(code: CodeType, at: int) -> str:

@@ -32,13 +32,15 @@ def picture(exercise: Exercise, found: Verdict, examples: list[Example], attempt
     parts = attempts[k].parts if 0 <= k < len(attempts) else ()
     if exercise.look is None or not parts or any(not np.isfinite(part).all() for part in parts):
         return b""
+    if any(a.shape != b.shape for a, b in zip(parts, examples[k].right, strict=True)):
+        return b""  # nothing that could be drawn beside the right one
     arguments = thaw(examples[k].arguments)
     try:
         with np.errstate(all="ignore"):
             right = exercise.look(arguments, exercise.value(list(examples[k].right)))
             mine = exercise.look(arguments, exercise.value(list(parts)))
     except (ValueError, IndexError, ArithmeticError, np.linalg.LinAlgError):
-        return b""  # of another shape: nothing that could be drawn beside the right one
+        return b""
     return _drawn(right, mine)
 
 

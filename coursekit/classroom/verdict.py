@@ -102,7 +102,7 @@ def verdict(
     """
     answers = [attempt.parts for attempt in attempts]
     if found := _cannot_be_judged(exercise, examples, attempts):
-        hint = _named(exercise, examples, answers) if all(answers) else None  # of another shape, but known
+        hint = None if found.step == "changed" else _named(exercise, examples, answers)
         return Verdict("named", hint.text, step=hint.key, example=found.example) if hint else found
     good = [example.agrees(parts) for example, parts in zip(examples, answers, strict=True)]
     if all(good):
@@ -110,8 +110,8 @@ def verdict(
     first = good.index(False)
     if hint := _named(exercise, examples, answers):
         return Verdict("named", hint.text, step=hint.key, example=first)
-    if found := _not_finite(exercise, examples, answers, function):
-        return found
+    if text := _other_length(exercise, examples, answers):
+        return Verdict("misfit", text, step="length", example=first)
     also = _already_and_residual(exercise, examples, answers, good, function)
     if function and (text := _ignored(exercise, function)):
         return Verdict("named", text, also, "ignored", first)
@@ -119,6 +119,8 @@ def verdict(
         return Verdict("named", text, step="done", example=first)
     if function and (edit := _repaired(exercise, function, examples, good, attempts)):
         return Verdict("named", edit.text, also, "repair", first, edit.phrase)
+    if found := _not_finite(exercise, examples, answers, function):
+        return found
     if also:
         return Verdict("placed", also[0], also[1:], "already", first)
     return Verdict(
@@ -152,13 +154,23 @@ def _only_there(examples: list[Example], attempts: list[Attempt], k: int) -> str
     return f"{case}: " if len(bad) == 1 and well and case not in well else ""
 
 
+def _other_length(exercise: Exercise, examples: list[Example], answers: list[Parts]) -> str:
+    """'' or how many rows, columns or entries are expected where their number depends on the arguments."""
+    for example, parts in zip(examples, answers, strict=True):
+        for mine, right, shape in zip(parts, example.right, exercise.shapes, strict=True):
+            for axis, size in enumerate(shape):
+                if size is None and mine.shape[axis] != right.shape[axis]:
+                    return f"the shape is {mine.shape}; for these arguments {right.shape} is expected"
+    return ""
+
+
 def _not_finite(exercise: Exercise, examples, answers, function) -> Verdict | None:
     bad = [not all(np.isfinite(part).all() for part in parts) for parts in answers]
     if not any(bad):
         return None
     k = bad.index(True)
-    cases = {e.case for e, b in zip(examples, bad, strict=True) if b}
-    where = f"{examples[k].case}: " if len(cases) == 1 and not all(bad) else ""
+    cases = list(dict.fromkeys(e.case for e, b in zip(examples, bad, strict=True) if b))
+    where = f"{', '.join(cases)}: " if len(cases) < 4 and not all(bad) else ""
     line, what = line_of_nan(function, examples[k].arguments) if function else (0, "")
     text = f"{where}the answer holds NaN or infinity"
     if line:
@@ -173,18 +185,22 @@ def _right(examples: list[Example], attempts: list[Attempt], allowed: tuple[str,
     calls = dict.fromkeys(call for attempt in attempts for call in attempt.calls)
     forbidden = next((call for call in calls if not permitted(call, allowed)), None)
     if forbidden:
-        text = f"the numbers are right, but it calls coursekit's own {forbidden}: write that part yourself"
+        name = forbidden.partition(".__")[0]  # making a Table is calling dh.Table
+        text = f"the numbers are right, but it calls coursekit's own {name}: write that part yourself"
         return Verdict("library", text, step="library")
     return Verdict("right", f"right on {len(examples)} examples", step="right")
 
 
 def _named(exercise: Exercise, examples: list[Example], answers: list[Parts]):
-    """A mistake is recognised by all examples at once: on some of them it may happen to be right."""
+    """A mistake is recognised by all examples at once: on some of them it may happen to be right.
+
+    Where the student's function raises, the others must do: at least three of them, and most.
+    """
+    known = [(e, parts) for e, parts in zip(examples, answers, strict=True) if parts]
+    if len(known) < max(3, len(examples) / 2) and len(known) < len(examples):
+        return None
     for hint in exercise.hints:
-        if all(
-            hint.key in e.wrong and e.agrees(parts, e.wrong[hint.key])
-            for e, parts in zip(examples, answers, strict=True)
-        ):
+        if all(hint.key in e.wrong and e.agrees(parts, e.wrong[hint.key]) for e, parts in known):
             return hint
     return None
 

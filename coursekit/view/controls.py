@@ -10,9 +10,9 @@ later cell set.)
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import anywidget
 import numpy as np
@@ -258,8 +258,8 @@ class Choice(Control):
 
     Parameters
     ----------
-    options : list of str, or dict of label -> object
-        With a dict the value is the object behind the chosen label.
+    options : list of str, or mapping of label -> object
+        With a mapping the value is the object behind the chosen label.
     start : str, optional
         The label chosen first (default: the first).
     """
@@ -271,11 +271,12 @@ class Choice(Control):
     def __init__(
         self,
         name: str,
-        options: Iterable[str] | dict[str, Any],
+        options: Iterable[str] | Mapping[str, Any],
         start: str | None = None,
         label: str | None = None,
     ) -> None:
-        self.meaning = dict(options) if isinstance(options, dict) else {text: text for text in options}
+        named = isinstance(options, Mapping)
+        self.meaning = cast("Mapping[str, Any]", options if named else {text: text for text in options})
         labels = list(self.meaning)
         self.initial = labels[0] if start is None else start
         if self.initial not in self.meaning:

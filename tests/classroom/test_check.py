@@ -268,7 +268,7 @@ def test_levels_tell_more_and_more(monkeypatch, capsys):
         texts[show] = capsys.readouterr().out
     assert texts[None].startswith("✗ home_pose: look at line 4: a sign\n")
     assert texts[None].count("\n") <= 4
-    assert "rotation is right, the position is not" in texts["more"]
+    assert "The rotation, x of the position and y of the position are right" in texts["more"]
     assert "Look again at" in texts["more"]
     assert texts["more"].count("\n") <= 6
     assert re.search(r"home_pose\(np.array\(\[[\d.,\s]+\]\)\)", texts["example"])

@@ -115,8 +115,8 @@ def speed_missed(args, value, right) -> str:
     q, points, v_max = (np.asarray(x, float) for x in args)
     if not np.isfinite(value) or value <= 0:
         return "a largest speed is a positive number"
-    step = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    used = value * np.abs(np.diff(q, axis=0)) / step[:, None] / v_max
+    lengths = np.sqrt(np.sum((points[1:] - points[:-1]) ** 2, axis=1, keepdims=True))
+    used = value * np.abs(q[1:] - q[:-1]) / lengths / v_max
     i, j = np.unravel_index(np.argmax(used), used.shape)
     where = f"joint {j + 1}, from point {i} to point {i + 1} (counted from 0)"
     if used[i, j] > 1:

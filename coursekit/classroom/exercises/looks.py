@@ -47,6 +47,7 @@ def from_wrist(args, rows):
 
 
 def point(args, p):
+    """One point."""
     return {"points": [np.asarray(p)]}
 
 

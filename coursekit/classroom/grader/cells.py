@@ -66,7 +66,7 @@ def definitions(source: str, after: int) -> str:
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return ""
     lines = source.split("\n")
-    kept = [""] * len(lines)
+    kept = ["#"] * len(lines)  # so that a line that is left out still counts
     wanted = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Import, ast.ImportFrom, ast.Assign)
     for node in statements:
         decorators = getattr(node, "decorator_list", [])

@@ -15,6 +15,8 @@ import signal
 import sys
 import traceback
 import types
+from collections.abc import Callable
+from typing import Any
 
 LARGEST = 2000  # numbers in one answer
 
@@ -53,7 +55,8 @@ class Late(BaseException):
     """The time for this request is over."""
 
 
-def ring(*_):
+def ring(*_: object) -> None:
+    """What the alarm does."""
     raise Late
 
 
@@ -81,7 +84,8 @@ def ask(request: dict, space: dict) -> dict:
     return {"answers": [one(function, call, request) for call in request["calls"]]}
 
 
-def one(function, call: list, request: dict) -> dict:
+def one(function: Callable, call: list, request: dict) -> dict:
+    """What one call gives: numbers, or what it raised."""
     import numpy as np
 
     try:
@@ -104,7 +108,7 @@ def one(function, call: list, request: dict) -> dict:
         return {"error": type(error).__name__, "text": str(error)[:200]}
 
 
-def thaw(x):
+def thaw(x: Any) -> Any:
     """Plain data as the student's function gets it."""
     import numpy as np
 
@@ -120,7 +124,7 @@ def thaw(x):
     return x
 
 
-def numbers(value) -> dict:
+def numbers(value: Any) -> dict:
     """An answer as text that JSON can carry, NaN and all."""
     import numpy as np
 

@@ -24,7 +24,7 @@ from .places import LOCALS, PROBE, Place, Variant
 from .sandbox import Sandbox, Stop, Unfit
 from .texts import phrase, sentence
 
-BUDGET = 800_000  # executed lines, of the student's and of what they call
+BUDGET = 600_000  # executed lines, of the student's and of what they call
 
 
 @dataclass(frozen=True)

@@ -67,7 +67,7 @@ def phrase(kinds: list[tuple[str, str]], lines: list[int]) -> str:
 def sentence(kinds: list[tuple[str, str]], lines: list[int]) -> str:
     """ "look at line 4: a sign", from the kinds of all edits that would do, and their lines."""
     where = _lines(lines)
-    return f"look at {where}: {_what(kinds)}" if where else f"look at {_what(kinds)}"
+    return f"look at {where or 'several lines at once'}: {_what(kinds)}"
 
 
 def _lines(lines: list[int]) -> str:
