@@ -36,11 +36,11 @@ def large(axis):
 
 
 def nearly_about(axis):
-    """The same, but by far: even with a mistake in its size it is still the largest."""
+    """Nearly half a turn about nearly an axis: that component is the largest even if its size is wrong."""
 
     def draw(rng):
-        k = rng.choice([-1, 1], 3) * np.roll([0.96, 0.2, 0.196], axis)
-        return turn(k / np.linalg.norm(k), rng.uniform(2.3, 2.9))
+        k = rng.choice([-1, 1], 3) * np.roll([1.0, 0.03, 0.02], axis)
+        return turn(k / np.linalg.norm(k), np.pi - rng.uniform(0.02, 0.04))
 
     return draw
 

@@ -256,7 +256,7 @@ EXERCISES = [
         usual="for ordinary angles",
         blocks=(Block("the yaw", 0), Block("the pitch", 1), Block("the roll", 2)),
         edges=(
-            Edge("where R[0, 0] and R[2, 2] are positive", lambda rng: draws.away_from_lock(rng, (-1, 0))),
+            Edge("where yaw and roll lie between -90 and 0 deg", lambda rng: draws.away_from_lock(rng, [-1])),
             Edge("where R[0, 0] and R[2, 2] are negative", lambda rng: draws.away_from_lock(rng, (-2, 1))),
             Edge("for no turn at all", lambda rng: (np.eye(3, dtype=int),)),
             Edge("for a quarter turn about z", draws.quarter_turn),
