@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 NOT_GIVEN: Any = None
 
 POSE_TOLERANCE = 1e-6  # how far from a rotation the upper left block of a pose may be (R'R - I, max abs)
+UNIT = 1e-9  # how far from 1 the length of a direction may be that is given as a unit vector
 
 
 def array(value: ArrayLike, shape: tuple[int, ...], name: str) -> np.ndarray:

@@ -19,6 +19,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import checks, lie
+from .normals import Normal, common_normal, procedure
+
+__all__ = ["CONVENTIONS", "Normal", "Table", "common_normal", "from_axes", "joint_types", "steps"]
 
 CONVENTIONS = ("standard", "modified")
 _JOINTS = {"r": "revolute", "revolute": "revolute", "p": "prismatic", "prismatic": "prismatic"}
@@ -142,6 +145,30 @@ class Table:
         S = (lie.adjoint(frames) @ A[..., None])[..., 0].T
         return S, self.fk(np.zeros(self.n))
 
+    def disagreement(self, S: np.ndarray, M: np.ndarray) -> str:
+        """Where the table first leaves the arm with screws S (6, n) and home pose M; "" if nowhere.
+
+        >>> table = Table(a=[0.5, 0.25], alpha=[0, 0], d=[0, 0], theta=[0, 0])
+        >>> S, M = table.screws()
+        >>> Table(a=[0.6, 0.25], alpha=[0, 0], d=[0, 0], theta=[0, 0]).disagreement(S, M)
+        'after row 1 of the standard DH table axis 2 is 0 rad and 0.1 m off'
+        """
+        if S.shape[1] != self.n:
+            return f"the {self.convention} DH table has {self.n} rows for {S.shape[1]} joints"
+        own_S, own_M = self.screws()
+        slides = np.array([kind == "prismatic" for kind in self.joint_types])
+        own_S, S = (np.where(slides, np.roll(screws, 3, axis=0), screws) for screws in (own_S, S))
+        rows_before = 0 if self.convention == "standard" else 1
+        found = [(own_S[:, i], S[:, i], i + rows_before, f"axis {i + 1}") for i in range(self.n)]
+        own_tool, tool = (np.append(T[:3, :3], T[:3, 3]) for T in (own_M, M))
+        found.append((own_tool, tool, self.n, "the tool"))
+        for own, given, row, what in found:
+            apart = np.abs(own - given)
+            if apart.max() > checks.POSE_TOLERANCE:
+                where = f"row {row} of the {self.convention} DH table" if row else "the base of the DH table"
+                return f"after {where} {what} is {apart[:-3].max():.3g} rad and {apart[-3:].max():.3g} m off"
+        return ""
+
     def to_modified(self) -> Table:
         """The modified table of the same arm: same joints, same base, same T(q).
 
@@ -182,34 +209,58 @@ def joint_types(types: Iterable[str] | None, n: int) -> tuple[str, ...]:
     return tuple(_JOINTS[str(kind).lower()] for kind in types)
 
 
-def common_normal(S_1: ArrayLike, S_2: ArrayLike) -> tuple[np.floating, np.floating, np.ndarray, np.ndarray]:
-    """DH parameters between two revolute axes: length, angle and feet of their common normal.
+def from_axes(
+    w: ArrayLike,
+    q: ArrayLike,
+    M: ArrayLike,
+    joint_types: Iterable[str] | None = None,
+    convention: str = "standard",
+) -> Table:
+    """The DH table of an arm that is given by its axes, made by common normals.
 
-    S_1, S_2: unit screws (6,) = (omega; v) without pitch. Returns (a, alpha, foot_1, foot_2): metres, radians
-    in [0, pi], two points (3,) in the space frame. Parallel axes have infinitely many common normals: the
-    foot on axis 1 is then its point nearest the origin. Nearly parallel axes have exactly one, and it may be
-    far away: that is the singularity of the DH parameters.
+    w (n, 3) directions, q (n, 3) points on the axes (for a slide: where it is to stand), M (4, 4) pose of the
+    tool at q = 0; metres. Every arm without screws of a pitch has such a table, and many: what the procedure
+    leaves free, and how it is chosen here, `steps` tells row by row. Raises ValueError as Robot.from_axes.
 
-    >>> a, alpha, foot_1, foot_2 = common_normal([0, 0, 1, 0, 0, 0], [0, -1, 0, 0, 0, -0.5])
-    >>> float(a), round(float(alpha), 6), foot_2.tolist()
-    (0.5, 1.570796, [0.5, 0.0, 0.0])
+    >>> w, q = [[0, 0, 1], [0, 1, 0]], [[0, 0, 0], [0.1, 0, 0.4]]
+    >>> table = from_axes(w, q, np.eye(4), convention="modified")
+    >>> table.a.tolist(), table.alpha.round(4).tolist(), table.d.tolist()
+    ([0.0, 0.1], [0.0, -1.5708], [0.4, 0.0])
     """
-    S_1, S_2 = checks.array(S_1, (6,), "S_1"), checks.array(S_2, (6,), "S_2")
-    w_1, w_2 = S_1[:3], S_2[:3]
-    for name, w in (("S_1", w_1), ("S_2", w_2)):
-        if abs(np.linalg.norm(w) - 1) > 1e-9:
-            raise ValueError(
-                f"{name} must be a revolute screw: |omega| must be 1, got {np.linalg.norm(w):.3g}"
-            )
-    q_1, q_2 = np.cross(w_1, S_1[3:]), np.cross(w_2, S_2[3:])  # the points nearest the origin
-    normal = np.cross(w_1, w_2)
-    sine, cosine = np.linalg.norm(normal), w_1 @ w_2
-    if sine < 1e-12:
-        foot_1, foot_2 = q_1, q_2 + w_2 * (w_2 @ (q_1 - q_2))
-    else:
-        foot_1 = q_1 + w_1 * (np.cross(q_2 - q_1, w_2) @ normal) / sine**2
-        foot_2 = q_2 + w_2 * (np.cross(q_2 - q_1, w_1) @ normal) / sine**2
-    return np.linalg.norm(foot_2 - foot_1), np.arctan2(sine, cosine), foot_1, foot_2
+    w, q, M, types = axes_of_arm(w, q, M, joint_types, "dh.from_axes")
+    base, rows = procedure(w, q, M)
+    a, alpha, d, theta = np.array([(row.a, row.alpha, row.d, row.theta) for row in rows]).T
+    to_last_frame = Table(a, alpha, d, theta, "standard", types, base).fk(np.zeros(len(rows)))
+    table = Table(a, alpha, d, theta, "standard", types, base, tool=lie.inverse(to_last_frame) @ M)
+    if convention not in CONVENTIONS:
+        raise ValueError(f"convention must be one of {CONVENTIONS}, got {convention!r}")
+    return table if convention == "standard" else table.to_modified()
+
+
+def steps(w: ArrayLike, q: ArrayLike, M: ArrayLike) -> list[Normal]:
+    """How `from_axes` went from axis to axis: one `Normal` per row of the standard table, as data to show.
+
+    >>> [(row.case, row.free) for row in steps([[0, 0, 1], [0, 0, 1]], [[0, 0, 0], [1, 0, 0]], np.eye(4))]
+    [('parallel', 'the place along the axes: that of the frame before'),
+     ('parallel', 'the place along the axes: that of the tool')]
+    """
+    w, q, M, _ = axes_of_arm(w, q, M, None, "dh.steps")
+    return procedure(w, q, M)[1]
+
+
+def axes_of_arm(
+    w: ArrayLike, q: ArrayLike, M: ArrayLike, types: Iterable[str] | None, name: str
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, tuple[str, ...]]:
+    """Unit directions (n, 3), points (n, 3), M and joint types, or a ValueError that begins with `name`."""
+    w, q = checks.array(w, (3,), f"{name}: w"), checks.array(q, (3,), f"{name}: q")
+    if w.ndim != 2 or w.shape != q.shape:
+        raise ValueError(
+            f"{name}: w and q must both be (n, 3), one row per joint, got {w.shape} and {q.shape}"
+        )
+    length = np.linalg.norm(w, axis=1, keepdims=True)
+    if not np.all(length > 0):
+        raise ValueError(f"{name}: the axis of joint {np.argmin(length) + 1} has direction zero")
+    return w / length, q, checks.pose(M, f"{name}: M"), joint_types(types, len(w))
 
 
 def _screw_z(theta, d):

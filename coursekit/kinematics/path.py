@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from . import checks
 from .robot import Robot
+from .spline import not_a_knot
 
 SPHERE_RADIUS = 0.5  # m
 SPHERE_CENTER = (0.0, 0.0, 0.5)  # m
@@ -106,13 +107,11 @@ def resample(points: ArrayLike, n: int) -> np.ndarray:
     >>> resample([[0, 0, 0], [1, 0, 0], [4, 0, 0]], 5).round(12)[:, 0].tolist()
     [0.0, 1.0, 2.0, 3.0, 4.0]
     """
-    from scipy.interpolate import CubicSpline  # here, because importing scipy takes longer than all the rest
-
     if n < 2:
         raise ValueError(f"n must be at least 2 points, got {n}")
     points = _points(points)
     length = np.append(0.0, np.cumsum(steps(points)))
-    return CubicSpline(length, points)(np.linspace(0.0, length[-1], n))
+    return not_a_knot(length, points, np.linspace(0.0, length[-1], n))
 
 
 def steps(points: ArrayLike) -> np.ndarray:
@@ -193,6 +192,31 @@ def follow(robot: Robot, T: ArrayLike) -> np.ndarray:
     return np.swapaxes(q, 0, 1)
 
 
+def trace(robot: Robot, T: ArrayLike, theta0: ArrayLike) -> np.ndarray:
+    """Follows the poses T by numeric inverse kinematics, from pose to pose. -> (..., m, n), rad.
+
+    T (m, 4, 4); theta0 (..., n) where each path starts from, near a solution of the first pose: for all that
+    are found, `ik.search(robot, T[0]).theta`. Each pose is solved from the solution before, so the path is
+    continuous, for any arm. NaN from where a pose is not reached or a joint turns by more than a quarter. A
+    redundant arm that comes back to a pose need not come back to the configuration.
+
+    >>> from coursekit import robots
+    >>> panda = robots.franka_panda()
+    >>> trace(panda, [panda.M, panda.M], np.full((3, 7), 0.1)).shape
+    (3, 2, 7)
+    """
+    from . import ik
+
+    T = checks.pose(T, f"{robot.name}: the path T")
+    theta = checks.joint_angles(theta0, robot.n, robot.name)
+    q = np.full((*theta.shape[:-1], len(T), robot.n), np.nan)
+    for i, pose in enumerate(T):
+        found = ik.damped_least_squares(robot, pose, theta)
+        good = found.converged & ((i == 0) | (np.abs(found.theta - theta) < JUMP).all(axis=-1))
+        theta = q[..., i, :] = np.where(good[..., None], found.theta, np.nan)
+    return q
+
+
 def points_reached(q: ArrayLike) -> np.ndarray:
     """How many points of the path each branch reaches before it breaks. q (..., m, n) -> whole numbers (...).
 
@@ -265,7 +289,7 @@ def speed_limit(q: ArrayLike, points: ArrayLike, v_max: ArrayLike) -> SpeedLimit
 # -- small steps -------------------------------------------------------------------------------------------
 
 
-def _points(points):
+def _points(points: ArrayLike) -> np.ndarray:
     """points as a float array (m, d) with at least two rows."""
     points = checks.array(points, (), "points")
     if points.ndim != 2 or len(points) < 2:
@@ -295,7 +319,7 @@ def _pair(difference):
     distance = np.where((difference < JUMP).all(axis=-1), np.square(difference).sum(axis=-1), np.inf)
     partner, row = np.full((m, k), -1), np.arange(m)
     for _ in range(k):
-        a, b = np.divmod(distance.reshape(m, -1).argmin(axis=-1), k)
+        a, b = np.divmod(distance.reshape(m, k * k).argmin(axis=-1), k)
         found = np.isfinite(distance[row, a, b])
         partner[row[found], a[found]] = b[found]
         distance[row, a, :] = distance[row, :, b] = np.inf

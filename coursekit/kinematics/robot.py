@@ -5,21 +5,42 @@ T(theta) = e^[S_1]theta_1 ... e^[S_n]theta_n M      (Lynch & Park, eq. 4.14)
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections import deque
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import checks, dh, lie, screws
+from . import axes, checks, dh, lie
+from .links import Links, joint_types_of, places_on
 
-CHUNK = 1024  # configurations per block: keeps the working set of a large batch in the cache
+CHUNK = 2048  # configurations per block: keeps the working set of a large batch in the cache
+AT_LIMIT = 1e-9  # rad or m beyond a limit that still count as inside: rounding of an angle that was computed
+
+
+class About(TypedDict, total=False):
+    """What a Robot may be told beyond its screws: `Robot` explains each."""
+
+    name: str
+    q_min: ArrayLike | None
+    q_max: ArrayLike | None
+    v_max: ArrayLike | None
+    home: ArrayLike | None
+    places: ArrayLike | None
+    standard_dh: dh.Table | None
+    modified_dh: dh.Table | None
+    source: str
+    discrepancies: tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False)
 class Robot:
-    """An open-chain robot arm. Make one with `from_screws`, `from_axes` or `from_dh`; arrays are read-only.
+    """An open-chain robot arm. Make one with `from_screws`, `from_axes`, `from_dh` or `from_urdf`.
+
+    Arrays are read-only.
 
     S              (6, n) space screws, one per column, (omega; v), at theta = 0
     M              (4, 4) pose of the tool in the space frame at theta = 0
@@ -28,10 +49,20 @@ class Robot:
     q_min, q_max   (n,) joint limits, rad or m; infinite where none are known
     v_max          (n,) speed limits, rad/s or m/s; NaN where none are known
     home           (n,) the pose the maker calls home (zero where it has none)
-    standard_dh    dh.Table or None: the same arm, frame i on axis i + 1
-    modified_dh    dh.Table or None: the same arm, frame i on axis i
+    places         (n, 3) where each joint stands on its axis at theta = 0, in metres: points given to
+                   `from_axes`, origins of a given modified DH table, or else on each axis the point nearest
+                   the place before
+    standard_dh    dh.Table: the same arm, frame i on axis i + 1. The one given, or made from the axes (None
+                   where a joint is a screw with a pitch)
+    modified_dh    dh.Table: the same arm, frame i on axis i
     source         where the numbers come from
     discrepancies  what sources say otherwise, one sentence each
+    B              (6, n) body screws, Ad(M^-1) S
+    links          what is constant between the joints, see `links.Links`
+
+    Raises ValueError for screws without direction or unit length, M not in SE(3), limits that exclude each
+    other, places off their axes, and a DH table that describes another arm than S and M: the text names the
+    joint or the row and says by how much.
     """
 
     S: np.ndarray
@@ -42,20 +73,24 @@ class Robot:
     q_max: np.ndarray = checks.NOT_GIVEN
     v_max: np.ndarray = checks.NOT_GIVEN
     home: np.ndarray = checks.NOT_GIVEN
+    places: np.ndarray = checks.NOT_GIVEN
     standard_dh: dh.Table | None = None
     modified_dh: dh.Table | None = None
     source: str = ""
     discrepancies: tuple[str, ...] = ()
-    B: np.ndarray = field(init=False, repr=False)  # (6, n) body screws, Ad(M^-1) S
-    _exponentials: np.ndarray = field(init=False, repr=False)  # (n, 4, 16), see screws.exponential_constants
-    _exponentials_to_tool: np.ndarray = field(init=False, repr=False)  # the same, M in the last joint
-    _frames_at_zero: np.ndarray = field(init=False, repr=False)  # (n, 4, 4)
-    _axis_steps: np.ndarray = field(init=False, repr=False)  # (n, 4, 4), see screws.steps_along
-    _slides: np.ndarray = field(init=False, repr=False)  # (n,), see screws.slide
+    B: np.ndarray = field(init=False, repr=False)
+    links: Links = field(init=False, repr=False)
 
     if TYPE_CHECKING:  # the constructor takes lists, too; fields say what __post_init__ makes of them
 
-        def __init__(self, S: ArrayLike, M: ArrayLike, **more: Any) -> None: ...
+        def __init__(
+            self,
+            S: ArrayLike,
+            M: ArrayLike,
+            *,
+            joint_types: Iterable[str] | None = None,
+            **more: Unpack[About],
+        ) -> None: ...
 
     def __post_init__(self):
         S = checks.array(self.S, (), f"{self.name}: S")
@@ -73,14 +108,32 @@ class Robot:
         self._store("S", S, (6, n))
         self._store("M", checks.pose(self.M, f"{self.name}: M"), (4, 4))
         self._store("B", lie.adjoint(lie.inverse(self.M)) @ S, (6, n))
-        object.__setattr__(self, "joint_types", screws.joint_types(S, self.joint_types, self.name))
-        constants = np.array([screws.exponential_constants(s) for s in S.T])
-        self._store("_exponentials", constants.reshape(n, 4, 16), (n, 4, 16))
-        constants[-1] = constants[-1] @ self.M
-        self._store("_exponentials_to_tool", constants.reshape(n, 4, 16), (n, 4, 16))
-        self._store("_frames_at_zero", self._place_frames(), (n, 4, 4))
-        self._store("_axis_steps", screws.steps_along(S), (n, 4, 4))
-        self._store("_slides", [screws.slide(s) for s in S.T], (n,))
+        object.__setattr__(self, "joint_types", joint_types_of(S, self.joint_types, self.name))
+        self._place()
+
+    def _place(self):
+        """Tables and places follow from each other, where only one of them is given; links from both."""
+        zero, w, q = np.zeros(self.n), axes.directions_of(self.S), axes.points_on(self.S)
+        tables = [table for table in (self.standard_dh, self.modified_dh) if table is not None]
+        for table in tables:
+            complaint = table.disagreement(self.S, self.M)
+            if complaint:
+                raise ValueError(f"{self.name}: {complaint}")
+        places = self.places
+        if places is None:
+            places = tables[-1].to_modified().frames(zero)[:, :3, 3] if tables else places_on(self.S)
+        self._store("places", places, (self.n, 3))
+        off = np.linalg.norm(np.cross(self.places - q, w), axis=1) * np.any(self.S[:3], axis=0)
+        if off.max() > checks.POSE_TOLERANCE:
+            raise ValueError(f"{self.name}: place {off.argmax() + 1} is {off.max():.3g} m beside its axis")
+        if not tables and np.all(np.abs((self.S[:3] * self.S[3:]).sum(axis=0)) < axes.SAME):
+            tables = [dh.from_axes(w, self.places, self.M, self.joint_types)]
+        x = None
+        if tables:
+            object.__setattr__(self, "standard_dh", tables[0].to_standard())
+            object.__setattr__(self, "modified_dh", tables[-1].to_modified())
+            x = self.modified_dh.frames(zero)[:, :3, 0].round(15)  # a quarter turn is then exactly one
+        object.__setattr__(self, "links", Links.between(self.S, self.M, self.places, x))
 
     def _store(self, key, value, shape):
         """Fields are set once, as read-only copies: a frozen dataclass allows no plain assignment."""
@@ -89,7 +142,9 @@ class Robot:
     # -- ways to make one ---------------------------------------------------------------------------------
 
     @classmethod
-    def from_screws(cls, S: ArrayLike, M: ArrayLike, **more: Any) -> Robot:
+    def from_screws(
+        cls, S: ArrayLike, M: ArrayLike, joint_types: Iterable[str] | None = None, **more: Unpack[About]
+    ) -> Robot:
         """From space screws S (6, n) and the home pose M (4, 4). Other fields by name (see the class).
 
         Raises ValueError where a screw has no direction or none of unit length, or M is not in SE(3).
@@ -98,38 +153,36 @@ class Robot:
         >>> robot.joint_types
         ('revolute',)
         """
-        return cls(S, M, **more)
+        return cls(S, M, joint_types=joint_types, **more)
 
     @classmethod
     def from_axes(
-        cls, w: ArrayLike, q: ArrayLike, M: ArrayLike, joint_types: Iterable[str] | None = None, **more: Any
+        cls,
+        w: ArrayLike,
+        q: ArrayLike,
+        M: ArrayLike,
+        joint_types: Iterable[str] | None = None,
+        **more: Unpack[About],
     ) -> Robot:
         """From what one reads off a drawing: directions w (n, 3) and points q (n, 3) on the axes, metres.
 
         A revolute joint gets S = (w; -w x q), a prismatic one S = (0; w). Directions are scaled to length 1.
-        Raises ValueError where a direction has length zero.
+        The points are the joints' `places`: frames and pictures have them there, unless a DH table is given,
+        which says it for itself. Raises ValueError where a direction has length zero.
 
         >>> robot = Robot.from_axes([[0, 0, 2]], [[1, 0, 0]], np.eye(4))
         >>> robot.S[:, 0].tolist()
         [0.0, 0.0, 1.0, 0.0, -1.0, 0.0]
         """
-        name = more.get("name", "robot")
-        w, q = checks.array(w, (3,), f"{name}: w"), checks.array(q, (3,), f"{name}: q")
-        if w.ndim != 2 or w.shape != q.shape:
-            raise ValueError(
-                f"{name}: w and q must both be (n, 3), one row per joint, got {w.shape} and {q.shape}"
-            )
-        length = np.linalg.norm(w, axis=1, keepdims=True)
-        if not np.all(length > 0):
-            raise ValueError(f"{name}: the axis of joint {np.argmin(length) + 1} has direction zero")
-        unit = w / length
-        slides = np.array([kind == "prismatic" for kind in dh.joint_types(joint_types, len(unit))])[:, None]
-        S = np.hstack([np.where(slides, 0.0, unit), np.where(slides, unit, -np.cross(unit, q))]).T
-        S = S + 0.0  # no -0
-        return cls(S, M, joint_types=joint_types, **more)
+        w, q, M, types = dh.axes_of_arm(w, q, M, joint_types, more.get("name", "robot"))
+        slides = np.array([kind == "prismatic" for kind in types])[:, None]
+        S = np.hstack([np.where(slides, 0.0, w), np.where(slides, w, -np.cross(w, q))]).T + 0.0  # no -0
+        if more.get("standard_dh") is None and more.get("modified_dh") is None:
+            more.setdefault("places", q)
+        return cls(S, M, joint_types=types, **more)
 
     @classmethod
-    def from_dh(cls, table: dh.Table, **more: Any) -> Robot:
+    def from_dh(cls, table: dh.Table, **more: Unpack[About]) -> Robot:
         """From a `dh.Table` of either convention; the other table is made from it.
 
         >>> table = dh.Table(a=[0.5, 0.25], alpha=[0, 0], d=[0, 0], theta=[0, 0])
@@ -141,8 +194,28 @@ class Robot:
                 f"{more.get('name', 'robot')}: from_dh needs a dh.Table, got {type(table).__name__}"
             )
         S, M = table.screws()
-        tables = {"standard_dh": table.to_standard(), "modified_dh": table.to_modified()}
-        return cls(S, M, **{**tables, "joint_types": table.joint_types, **more})
+        more.setdefault("standard_dh", table.to_standard())
+        more.setdefault("modified_dh", table.to_modified())
+        return cls(S, M, joint_types=table.joint_types, **more)
+
+    @classmethod
+    def from_urdf(cls, path: str | Path, tip: str | None = None, **more: Unpack[About]) -> Robot:
+        """From a URDF: the chain from the root link to the link `tip`, whose frame is the tool frame.
+
+        path: the name of a file (or its text). tip: None, where only one link carries no other. Revolute,
+        continuous, prismatic and fixed joints; limits and speeds as given (a speed of 0 is unknown); joints
+        beside the chain do not matter. Raises ValueError that names the element and its line: for a mimic,
+        floating or planar joint, links without a chain, numbers that are none, a document type, no XML.
+
+        >>> robot = Robot.from_urdf('''<robot name="turntable"> <link name="floor"/> <link name="plate"/>
+        ...     <joint name="turn" type="continuous"> <parent link="floor"/> <child link="plate"/>
+        ...         <origin xyz="0 0 0.3"/> <axis xyz="0 0 1"/> </joint> </robot>''')
+        >>> robot.name, robot.n, robot.M[2, 3].tolist()
+        ('turntable', 1, 0.3)
+        """
+        from . import urdf
+
+        return cls.from_axes(**{**urdf.read(path, tip), **more})
 
     def with_tool(self, T: ArrayLike) -> Robot:
         """The same arm with a tool: T (4, 4) is the new tool frame in the old one. M becomes M T.
@@ -161,7 +234,8 @@ class Robot:
         """
         T = checks.pose(T, f"{self.name}: the base")
         tables = self._tables(lambda table: replace(table, base=T @ table.base))
-        return replace(self, S=lie.adjoint(T) @ self.S, M=T @ self.M, **tables)
+        places = self.places @ T[:3, :3].T + T[:3, 3]
+        return replace(self, S=lie.adjoint(T) @ self.S, M=T @ self.M, places=places, **tables)
 
     def _tables(self, change):
         """The DH tables of the arm after `change`, where it has any."""
@@ -185,69 +259,56 @@ class Robot:
         [0.445, 0.0, 0.9]
         """
         theta = checks.joint_angles(theta, self.n, self.name)
-        flat = theta.reshape(-1, self.n)
-        T = np.empty((len(flat), 4, 4))
-        for start in range(0, len(flat), CHUNK):
-            block = slice(start, start + CHUNK)
-            E = self._link_exponentials(flat[block], self._exponentials_to_tool)
-            product = E[0]
-            for e in E[1:]:
-                product = product @ e
-            T[block] = product
+        T = _identities((theta.size // self.n,))
+        for block, angles in self._blocks(theta):
+            tool = deque(self.links.along(angles), maxlen=1).pop()  # the others would only fill the cache
+            T[block, :3] = tool.T
         return T.reshape(*theta.shape[:-1], 4, 4)
+
+    def link_frames(self, theta: ArrayLike) -> np.ndarray:
+        """Poses of the frames fixed to the links, in the space frame. theta (..., n) -> (..., n, 4, 4).
+
+        Frame i has its z along joint axis i, its x along the common normal to axis i + 1 (as modified DH),
+        and at theta = 0 its origin at `places[i]`. Link n carries the tool, so the last frame is the tool
+        frame: link_frames(theta)[..., -1, :, :] is fk(theta).
+        """
+        theta = checks.joint_angles(theta, self.n, self.name)
+        F = _identities((theta.size // self.n, self.n))
+        for block, angles in self._blocks(theta):
+            for i, frame in enumerate(self.links.along(angles)):
+                F[block, min(i, self.n - 1), :3] = frame.T  # in the last place the tool follows joint n
+        return F.reshape(*theta.shape[:-1], self.n, 4, 4)
 
     def displacements(self, theta: ArrayLike) -> np.ndarray:
         """How each link moved from where it stands at theta = 0: e^[S_1]theta_1 ... e^[S_i]theta_i.
 
         theta (..., n) -> (..., n, 4, 4). A point p of link i (space frame, theta = 0) is now at D_i p.
         """
-        theta = checks.joint_angles(theta, self.n, self.name)
+        at_zero = self.links.at_zero[:-1].copy()
+        at_zero[-1] = self.M
+        return self.link_frames(theta) @ lie.inverse(at_zero)
+
+    def _blocks(self, theta: np.ndarray) -> Iterator[tuple[slice, np.ndarray]]:
+        """theta (..., n) in blocks that fit the cache: which configurations, and their angles (n, N)."""
         flat = theta.reshape(-1, self.n)
-        D = np.empty((len(flat), self.n, 4, 4))
         for start in range(0, len(flat), CHUNK):
             block = slice(start, start + CHUNK)
-            E = self._link_exponentials(flat[block], self._exponentials)
-            product = D[block, 0] = E[0]
-            for i in range(1, self.n):
-                product = D[block, i] = product @ E[i]
-        return D.reshape(*theta.shape[:-1], self.n, 4, 4)
-
-    def link_frames(self, theta: ArrayLike) -> np.ndarray:
-        """Poses of the frames fixed to the links, in the space frame. theta (..., n) -> (..., n, 4, 4).
-
-        Frame i has its z along joint axis i and its origin where the modified DH convention puts it (for a
-        robot without such a table: the point of the axis nearest the previous origin). Link n carries the
-        tool, so the last frame is the tool frame: link_frames(theta)[..., -1, :, :] is fk(theta).
-        """
-        return self.displacements(theta) @ self._frames_at_zero
-
-    def _link_exponentials(self, theta, constants):
-        """e^[S_i]theta_i of every joint. theta (N, n) -> (n, N, 4, 4): one product, no loop."""
-        t = theta.T
-        basis = np.empty((*t.shape, 4))
-        basis[..., 0], basis[..., 1], basis[..., 2], basis[..., 3] = 1, np.sin(t), np.cos(t), t
-        return (basis @ constants).reshape(self.n, -1, 4, 4)
+            yield block, flat[block].T
 
     # -- Jacobians -------------------------------------------------------------------------------------------
 
     def jacobian_space(self, theta: ArrayLike) -> np.ndarray:
         """J_s: V_s = J_s thetadot, both in the space frame. theta (..., n) -> (..., 6, n), rows (omega; v).
 
-        Column i is Ad(e^[S_1]theta_1 ... e^[S_{i-1}]theta_{i-1}) S_i (eq. 5.11).
+        Column i is Ad(e^[S_1]theta_1 ... e^[S_{i-1}]theta_{i-1}) S_i (eq. 5.11): the screw of joint i where
+        the joints before it have carried it.
 
         >>> from coursekit import robots
         >>> robot = robots.planar_2r()
         >>> bool(np.all(robot.jacobian_space([0, 0]) == robot.S))
         True
         """
-        theta = checks.joint_angles(theta, self.n, self.name)
-        flat = theta.reshape(-1, self.n)
-        J = np.empty((len(flat), 6, self.n))
-        for start in range(0, len(flat), CHUNK):
-            block = slice(start, start + CHUNK)
-            moved = screws.moved(flat[block].T, self.joint_types, self._axis_steps, self._slides)
-            J[block] = moved.transpose(2, 0, 1)
-        return J.reshape(*theta.shape[:-1], 6, self.n)
+        return self._jacobian(theta, about_tool=False)
 
     def jacobian_body(self, theta: ArrayLike) -> np.ndarray:
         """J_b: V_b = J_b thetadot, in the tool frame. theta (..., n) -> (..., 6, n), rows (omega; v).
@@ -261,10 +322,18 @@ class Robot:
 
         Rows (w; v): v = v_s + w x p moves the reference point of the space Jacobian to the tool point p.
         """
-        J, p = self.jacobian_space(theta), self.fk(theta)[..., :3, 3]
-        w = np.moveaxis(J[..., :3, :], -2, 0)
-        J[..., 3:, :] += np.moveaxis(screws.cross(w, np.moveaxis(p, -1, 0)[..., None]), 0, -2)
-        return J
+        return self._jacobian(theta, about_tool=True)
+
+    def _jacobian(self, theta, about_tool):
+        """The joints' screws where they are now, seen from the origin or from the tool point."""
+        theta = checks.joint_angles(theta, self.n, self.name)
+        J = np.empty((theta.size // self.n, 6, self.n))
+        for block, angles in self._blocks(theta):
+            screws, (_, _, _, p) = self.links.screws(angles)
+            if about_tool:  # v = v_s + w x p
+                screws[3:] += axes.cross(screws[:3], p[:, None])
+            J[block] = screws.transpose(2, 0, 1)
+        return J.reshape(*theta.shape[:-1], 6, self.n)
 
     # -- limits ----------------------------------------------------------------------------------------------
 
@@ -272,7 +341,8 @@ class Robot:
         """Whether every joint can be brought inside its limits. theta (..., n) -> bool (...).
 
         A revolute joint may be turned by whole turns first: theta and theta +- 2 pi are the same attitude of
-        the link, and a joint that can reach one of them can reach it. NaN is outside.
+        the link, and a joint that can reach one of them can reach it. A limit missed by less than 1e-9 rad
+        (or m) is kept: angles that come out of a computation are no better than that. NaN is outside.
 
         >>> from coursekit import robots
         >>> s030 = robots.kawasaki_s030()       # joint 2: -50 to 195 deg
@@ -283,8 +353,7 @@ class Robot:
 
     def inside(self, theta: ArrayLike) -> np.ndarray:
         """Whether each joint can be brought inside its limits. theta (..., n) -> bool (..., n)."""
-        shifted = self.nearest_turn(theta)
-        return (self.q_min <= shifted) & (shifted <= self.q_max)
+        return self._between_limits(self.nearest_turn(theta))
 
     def nearest_turn(self, theta: ArrayLike) -> np.ndarray:
         """theta with revolute joints turned by whole turns into their limits where that is possible.
@@ -292,19 +361,19 @@ class Robot:
         theta (..., n) -> (..., n). A joint that no whole turn brings inside keeps its angle.
         """
         theta = checks.joint_angles(theta, self.n, self.name)
-        below, above = self.q_min - theta, theta - self.q_max
+        below, above = self.q_min - AT_LIMIT - theta, theta - self.q_max - AT_LIMIT
         turns = np.where(
             below > 0, np.ceil(below / (2 * np.pi)), np.where(above > 0, -np.ceil(above / (2 * np.pi)), 0)
         )
         turned = theta + 2 * np.pi * turns
         revolute = np.array([kind == "revolute" for kind in self.joint_types])
-        return np.where(revolute & (self.q_min <= turned) & (turned <= self.q_max), turned, theta)
+        return np.where(revolute & self._between_limits(turned), turned, theta)
 
-    # -- how it is put together ------------------------------------------------------------------------------
+    def _between_limits(self, theta):
+        return (self.q_min - AT_LIMIT <= theta) & (theta <= self.q_max + AT_LIMIT)
 
-    def _place_frames(self):
-        """The link frames at theta = 0, see link_frames. (n, 4, 4)."""
-        tables = self.modified_dh
-        frames = screws.frames_on(self.S) if tables is None else tables.frames(np.zeros(self.n))
-        frames[-1] = self.M
-        return frames
+
+def _identities(batch):
+    T = np.empty((*batch, 4, 4))
+    T[..., 3, :] = 0, 0, 0, 1
+    return T

@@ -23,11 +23,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import checks
+from .axes import SAME, directions_of, parallel, points_on, wrist
 from .jacobians import left_singular
 from .robot import Robot
 
 NAMES = ("wrist", "elbow", "shoulder")
-GEOMETRY = 1e-9  # parallel, or meeting in a point, within this (sine of an angle, metres)
 
 
 def determinant(robot: Robot, theta: ArrayLike) -> np.ndarray:
@@ -194,7 +194,7 @@ def lost_wrench(robot: Robot, theta: ArrayLike) -> Wrench:
     lost = lost_motion(robot, theta)
     moment, force = lost[..., :3], lost[..., 3:]
     size = np.sqrt((force * force).sum(axis=-1))
-    size = np.where(size < GEOMETRY, np.nan, size)[..., None]
+    size = np.where(size < SAME, np.nan, size)[..., None]
     direction = np.where(np.isnan(size), moment, force / size)
     pitch = np.where(np.isnan(size), np.inf, (force * moment / size**2).sum(axis=-1, keepdims=True))[..., 0]
     return Wrench(np.cross(force, moment) / size**2, direction, pitch)
@@ -233,7 +233,7 @@ class _Sinusoid:
     def sign(self):
         """The sign of the first coefficient that is not zero."""
         coefficients = [self.constant, *(c for term in self.terms for c in term[1:])]
-        return next((np.sign(c) for c in coefficients if abs(c) > GEOMETRY), 1.0)
+        return next((np.sign(c) for c in coefficients if abs(c) > SAME), 1.0)
 
 
 @lru_cache(maxsize=64)
@@ -241,30 +241,23 @@ def _split(robot):
     """{"wrist", "elbow", "shoulder": _Sinusoid}, or in words why det J does not split like that."""
     if robot.n != 6:
         return f"the arm has {robot.n} joints, not 6"
-    w, v = robot.S[:3].T, robot.S[3:].T
-    if "prismatic" in robot.joint_types or np.any(np.abs((w * v).sum(axis=1)) > GEOMETRY):
+    if robot.links.sliding:
         return "its joints are not all hinges"
-    q = np.cross(w, v)
-    if np.linalg.norm(np.cross(w[1], w[2])) > GEOMETRY:
+    w, q = directions_of(robot.S), points_on(robot.S)
+    if not parallel(w[1], w[2]):
         return "axes 2 and 3 are not parallel"
-    c = _meeting_point(w[4], q[4], w[5], q[5])
-    if c is None:
-        return "axes 5 and 6 do not meet in one point"
-    if np.linalg.norm(np.cross(w[3], c - q[3])) < GEOMETRY:
-        q_4 = c
-    elif np.linalg.norm(np.cross(w[3], w[1])) < GEOMETRY:
-        q_4 = q[3]
-    else:
-        return (
-            "axis 4 neither passes through the point where axes 5 and 6 meet nor is parallel to axes 2 and 3"
-        )
+    try:
+        family, c = wrist(q, w)
+    except ValueError as reason:
+        return str(reason)
+    q_4 = c if family == "spherical" else q[3]
 
-    upper_arm, forearm, wrist = q[2] - q[1], q_4 - q[2], c - q_4
+    upper_arm, forearm, hand = q[2] - q[1], q_4 - q[2], c - q_4
     e = np.eye(6)
     theta_2 = e[1]  # joints 3 and 4 may turn the other way round than joint 2
     theta_23 = theta_2 + e[2] * np.round(w[1] @ w[2])
     theta_234 = theta_23 + e[3] * np.round(w[1] @ w[3])
-    turned = (theta_2, upper_arm), (theta_23, forearm), (theta_234, wrist)
+    turned = (theta_2, upper_arm), (theta_23, forearm), (theta_234, hand)
 
     n = np.cross(w[1], w[0])
     side = _Sinusoid.of(n, w[1], *turned, constant=n @ (q[1] - q[0])).sign
@@ -280,15 +273,6 @@ def _split_or_error(robot):
     if isinstance(split, str):
         raise ValueError(f"det J of {robot.name} has no factors wrist, elbow, shoulder: {split}")
     return split
-
-
-def _meeting_point(w_1, q_1, w_2, q_2):
-    """The point where two lines meet, or None."""
-    normal = np.cross(w_1, w_2)
-    sine = np.linalg.norm(normal)
-    if sine < GEOMETRY or abs(normal @ (q_2 - q_1)) > GEOMETRY * sine:
-        return None
-    return q_1 + w_1 * (np.cross(q_2 - q_1, w_2) @ normal) / sine**2
 
 
 def _one(robot, theta):

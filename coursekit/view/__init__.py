@@ -5,6 +5,13 @@ One line of a notebook opens an explorer:
     from coursekit import robots, view
     view.explore(robots.kuka_kr6())
 
+The way of theta from slider to pixel. A hand moves a slider, and in the next frame the page moves the arm, by
+the screws it has (static/follow.js). The slider's value goes to the kernel, where the Panel reads all values
+once and hands them to the explorer. The explorer moves the handles of its Scene, which is data and knows of
+no browser. The Viewer sends what has changed: commands made by meshcat.py, and the pose of all that moves.
+The page draws the kernel's pose as soon as that speaks of the same sliders; and in a motion, where the page
+says which configuration it shows, the Panel puts the sliders there, and all goes the same way.
+
 Everything here is imported when it is first used: `from coursekit import view` alone loads no widget code.
 """
 
@@ -29,9 +36,11 @@ _WHERE = {
     "Toggle": "controls",
     "Action": "controls",
     "Plot": "plots",
+    "png": "picture",
+    "to_html": "page",
     "Table": "controls",
 }
-_MODULES = ("controls", "panel", "page", "plots", "scene", "text", "viewer")
+_MODULES = ("controls", "meshcat", "page", "panel", "picture", "plots", "reopened", "scene", "text", "viewer")
 
 __all__ = sorted([*_WHERE, *_MODULES])
 

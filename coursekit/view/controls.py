@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import anywidget
 import numpy as np
@@ -21,21 +21,19 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
 
-if TYPE_CHECKING:
-    from coursekit.view.panel import Panel  # which imports this module
-
-_STATIC = Path(__file__).parent / "static"
-_SCRIPT = (_STATIC / "controls.js").read_text(encoding="utf-8")
+STATIC = Path(__file__).parent / "static"
+SCRIPT = "\n".join((STATIC / f"{name}.js").read_text("utf-8") for name in ("html", "numbers", "controls"))
 _SHOWN_PER_SI = {"deg": 180 / np.pi, "mm": 1000.0}  # every other unit is shown as it is
 
 
 class Control(anywidget.AnyWidget):
     """What all controls share: a name, a label and a stable one-line repr."""
 
-    _esm = _SCRIPT
-    _css = _STATIC / "controls.css"
+    _esm = SCRIPT
+    _css = STATIC / "controls.css"
     kind = traitlets.Unicode().tag(sync=True)
     label = traitlets.Unicode().tag(sync=True)
+    touched = traitlets.Int(0).tag(sync=True)  # counts changes by a person
     kind_name: str
     value: Any
     initial: Any  # what `reset` puts
@@ -90,6 +88,7 @@ class Slider(Control):
     unit = traitlets.Unicode().tag(sync=True)
     digits = traitlets.Int().tag(sync=True)
     shape = traitlets.Int(0).tag(sync=True)  # counts changes of everything but the value
+    _beyond = False  # whether a value outside min and max is taken as it is
 
     def __init__(
         self,
@@ -102,7 +101,7 @@ class Slider(Control):
         limits: tuple[float, float] | None = None,
         label: str | None = None,
     ) -> None:
-        self._shown_per_si, self._exact = 1.0, (0.0, 0.0)
+        self.shown_per_si, self._exact = 1.0, (0.0, 0.0)
         super().__init__(name, label)
         self.fit(start, low, high, unit, step, limits)
 
@@ -119,7 +118,7 @@ class Slider(Control):
         name = self.name
         if not low < high:
             raise ValueError(f"slider {name!r}: low must be below high, got {low} and {high}")
-        self._shown_per_si = _SHOWN_PER_SI.get(unit, 1.0)
+        self.shown_per_si = _SHOWN_PER_SI.get(unit, 1.0)
         low, high = min(low, start), max(high, start)
         shown = [self._shown(x) for x in (low, high)]
         step = step or {"deg": 1.0, "mm": 10.0}.get(unit, (high - low) / 100)
@@ -138,7 +137,7 @@ class Slider(Control):
     def si(self) -> float:
         """The value in SI units; exactly what was `put`, as long as nobody moved the slider since."""
         shown, si = self._exact
-        return si if self.value == shown else self.value / self._shown_per_si
+        return si if self.value == shown else self.value / self.shown_per_si
 
     def get(self) -> float:
         return self.si
@@ -152,13 +151,23 @@ class Slider(Control):
         self.value = shown
         self._exact = (self.value, value)
 
+    def show(self, value: float) -> None:
+        """Put a value that may lie beyond the ends, where a motion leads there: it is marked as outside."""
+        self._beyond = True
+        try:
+            self.value = self._shown(float(value))
+        finally:
+            self._beyond = False
+        self._exact = (self.value, float(value))
+
     def _shown(self, si):
-        return float(np.round(si * self._shown_per_si, 10)) + 0.0  # 170.00000000000003 degrees is 170
+        return float(np.round(si * self.shown_per_si, 10)) + 0.0  # 170.00000000000003 degrees is 170
 
     @traitlets.validate("value")
     def _inside(self, proposal):
         low, high = self.min, self.max
-        return float(np.clip(proposal["value"], low, high)) if low < high else proposal["value"]
+        clips = low < high and not self._beyond
+        return float(np.clip(proposal["value"], low, high)) if clips else proposal["value"]
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.name}: {np.round(self.value, 3) + 0:g} {self.unit})"
@@ -214,6 +223,11 @@ class JointSliders(Sliders):
     """One slider per joint; the value is theta (n,), in radians and metres."""
 
     sliders: Sequence[JointSlider]
+
+    def show(self, theta: ArrayLike) -> None:
+        """Put theta (n,), also where a motion leads beyond the limits."""
+        for slider, value in zip(self.used, np.asarray(theta, float), strict=True):
+            slider.show(value)
 
     def __init__(
         self, robot: Robot, start: Sequence[float] | np.ndarray | None = None, name: str = "theta"
@@ -272,8 +286,13 @@ class Choice(Control):
         return self.meaning[self.value]
 
     def put(self, value: Any) -> None:
-        if value not in self.meaning:
-            raise ValueError(f"choice {self.name!r} has no {value!r}; it has: {', '.join(self.meaning)}")
+        """Choose a label, or what stands behind one."""
+        if not isinstance(value, str) or value not in self.meaning:
+            same = (label for label, meaning in self.meaning.items() if np.array_equal(meaning, value))
+            behind = next(same, None)
+            if behind is None:
+                raise ValueError(f"choice {self.name!r} has no {value!r}; it has: {', '.join(self.meaning)}")
+            value = behind
         self.value = value
 
     def reset(self) -> None:
@@ -292,13 +311,11 @@ class Toggle(Control):
 
 
 class Action(Control):
-    """A button; `act(panel)` is called under the panel's lock, then the panel is drawn again."""
+    """A button; `act()` is called under the panel's lock, then the panel is drawn again."""
 
     kind_name = "action"
 
-    def __init__(
-        self, name: str, label: str | None = None, act: Callable[[Panel], None] | None = None
-    ) -> None:
+    def __init__(self, name: str, label: str | None = None, act: Callable[[], None] | None = None) -> None:
         self.act = act
         super().__init__(name, label)
 

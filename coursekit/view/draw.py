@@ -10,12 +10,12 @@ from .paint import Part
 from .shapes import arrow as arrow_profile
 from .shapes import ball, frame_along, plate, tube
 
-Drawing = tuple[list[Part], list[dict]]  # what is drawn, and its labels
+Drawn = tuple[list[Part], list[dict]]  # parts and labels
 
 _WIRE: dict = {"glow": 0.3, "casts": False}
 
 
-def frame(size: float, letter: str = "") -> Drawing:
+def frame(size: float, letter: str = "") -> Drawn:
     """x, y, z as arrows from the origin with their letters, and the frame's own in braces above z."""
     shape = arrow_profile(size, 0.03 * size)
     look: dict = {"glow": 0.25, "xray": 0.45, "casts": False, "segments": 16}
@@ -37,7 +37,7 @@ def screw_axis(
     length: float,
     radius: float,
     color: str | int,
-) -> Drawing:
+) -> Drawn:
     """The line of a screw, starting near `at`; an arc with a tip shows which way it turns."""
     S = np.asarray(S, float)
     w, v = S[:3], S[3:]
@@ -67,7 +67,7 @@ def arrow(
     label: str = "",
     radius: float = 0.005,
     cls: str = "note",
-) -> Drawing:
+) -> Drawn:
     """An arrow with its label beyond the tip."""
     start, vector = np.asarray(start, float), np.asarray(vector, float)
     length = float(np.linalg.norm(vector))
@@ -79,7 +79,7 @@ def arrow(
     return [part], [_label(tip, label, cls)] if label else []
 
 
-def line(a: ArrayLike, b: ArrayLike, color: str | int, label: str = "", radius: float = 0.003) -> Drawing:
+def line(a: ArrayLike, b: ArrayLike, color: str | int, label: str = "", radius: float = 0.003) -> Drawn:
     """A straight rod with its label at the middle."""
     a, b = np.asarray(a, float), np.asarray(b, float)
     length = float(np.linalg.norm(b - a))
@@ -99,7 +99,7 @@ def curve(points: ArrayLike, color: str | int, radius: float, most: int = 240) -
     return [Part(tube(points[chosen], radius), color, glow=0.35)]
 
 
-def point(p: ArrayLike, label: str, color: str | int, radius: float) -> Drawing:
+def point(p: ArrayLike, label: str, color: str | int, radius: float) -> Drawn:
     """A ball, its label above."""
     p = np.asarray(p, float)
     part = Part(ball(radius), color, frame_along([0, 0, 1], p), segments=16, glow=0.35)

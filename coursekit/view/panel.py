@@ -6,11 +6,12 @@
 
     def explore_reach(robot):
         scene = Scene()
-        scene.robot(robot, robot.home)
+        arm = scene.robot(robot, robot.home)
+        tool = scene.frame(arm.link(robot.n) + "/tool", robot.M, "tool")
 
         def update(values):                       # called at every change, before the picture is sent
-            scene.set_theta("robot", values["theta"])
-            scene.show("/ck/robot/tool", values["tool"])
+            arm.theta = values["theta"]
+            tool.show(values["tool"])
 
         def text(values):                         # the line below the picture: numbers for everyone
             x, y, z = robot.fk(values["theta"])[:3, 3]
@@ -26,17 +27,31 @@ under one lock, because slider messages arrive in more than one thread. Nothing 
 import contextlib
 import threading
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import ipywidgets
 import numpy as np
 from numpy.typing import ArrayLike
 
+from coursekit.view import cells
 from coursekit.view import controls as parts
-from coursekit.view.scene import Scene
+from coursekit.view.scene import Arm, Scene
 from coursekit.view.viewer import Viewer, mimebundle
 
-_open: dict = {}  # (name, cell) -> the panel shown there now
+
+@dataclass
+class Motion:
+    """Joint values (N, n) that a robot of the scene goes through, and the one that is shown now."""
+
+    arm: Arm
+    thetas: np.ndarray
+    frame: int = 0
+
+    @property
+    def theta(self) -> np.ndarray:
+        """The configuration that is shown, (n,)."""
+        return self.thetas[self.frame]
 
 
 class Panel(ipywidgets.VBox):
@@ -59,6 +74,11 @@ class Panel(ipywidgets.VBox):
         What the stored one-line text calls this explorer (default: name).
     height : int
         Of the picture, pixels.
+    drivers : function(values), optional
+        The slider of each joint of the robot "robot" (or None), by which the page moves it before the kernel
+        answers. By default those of a control called "theta", where there is one for each joint.
+    computed : list of str
+        Paths of what `update` alone can place for another theta: a page without a kernel hides it.
     """
 
     def __init__(
@@ -72,27 +92,34 @@ class Panel(ipywidgets.VBox):
         title: str | None = None,
         height: int = 430,
         quality: str = "auto",
+        drivers: Callable[[dict], Sequence[parts.Slider | None]] | None = None,
+        computed: Sequence[str] = (),
     ) -> None:
         self.name = name
         self.title = name if title is None else title
         self.scene = scene
         self.below = list(below)
+        self.computed = list(computed)
         self._update = update
+        self._drivers = drivers or self._theta_sliders
         self._text = text
         self._lock = threading.RLock()
-        self._quiet = False
+        self._quiet, self._was_put = False, False
+        self.motion: Motion | None = None
+        self._played = False  # whether it ran when the page last said so
         self._stale: list = []  # plots that wait until a drag ends
-        self._controls = {
-            control.name: control for control in (*controls, *below) if hasattr(control, "name")
-        }
-        if len(self._controls) < len(controls):
-            raise ValueError(f"panel {name!r}: two controls have the same name")
+        named = [
+            control for control in (*controls, *below) if hasattr(control, "name")
+        ]  # stock widgets are not
+        self._controls = {control.name: control for control in named}
+        for control in named:
+            if self._controls[control.name] is not control:
+                raise ValueError(f"panel {name!r}: two controls are called {control.name!r}")
 
-        if update is not None:
-            update(self.values)
-        self.viewer = Viewer(scene, height=height, quality=quality)
+        values = self._updated()
+        self.viewer = Viewer(scene, height=height, quality=quality, lock=self._lock)
         self.line = parts.TextLine("text")
-        self.line.value = self._words()
+        self.line.value = self._words(values)
         super().__init__(layout=ipywidgets.Layout(width="100%"))
         column = self._column(controls)
         self.viewer.layout.flex, self.viewer.layout.min_width = "4 1 420px", "300px"
@@ -102,17 +129,22 @@ class Panel(ipywidgets.VBox):
         top = ipywidgets.Box([*([column] if controls else []), self.viewer], layout=flow)
         self.children = [top, self.line, *self._bottom()]
         for output in self.below:
-            output.refresh(self.values) if hasattr(output, "refresh") else None
+            output.refresh(values) if hasattr(output, "refresh") else None
         for control in self._widgets():
             self._listen(control)
-        self._replace_previous()
+        touchable = [widget for widget in self._widgets() if widget.has_trait("touched")]
+        self.viewer.controls = [f"IPY_MODEL_{widget.model_id}" for widget in touchable]
+        self.viewer.driven_by(self._drivers(values))
+        self.viewer.observe(self._frame_changed, ["frame", "playing"])
+        cells.take_place(self)
 
     # -- values
 
     @property
     def values(self) -> dict[str, Any]:
         """Name -> value of every control, in radians and metres."""
-        return {name: control.get() for name, control in self._controls.items() if control.get() is not None}
+        found = {name: control.get() for name, control in self._controls.items()}
+        return {name: value for name, value in found.items() if value is not None}
 
     def set(self, **values: Any) -> None:
         """Set controls from the program: one update for all of them, exactly these values.
@@ -123,30 +155,36 @@ class Panel(ipywidgets.VBox):
             if name not in self._controls:
                 known = ", ".join(self._controls)
                 raise ValueError(f"panel {self.name!r} has no control {name!r}; it has: {known}")
-        with self._lock, self._silence():
-            for name, value in values.items():
-                self._controls[name].put(value)
-        self.refresh()
+        with self._lock:
+            before = {name: value for name, value in self.values.items() if name in values}
+            try:
+                self._put(values)
+                if not all(isinstance(self._controls[name], parts.Toggle) for name in values):
+                    self._end_motion()
+                self.refresh()
+            except Exception as error:  # a value that is refused moves nothing
+                self._put(before)
+                self.refresh()
+                self.line.value = f"{type(error).__name__}: {error}"
+                raise
 
     def reset(self) -> None:
-        """Every control back to where it started."""
-        with self._lock, self._silence():
-            for control in self._controls.values():
-                control.reset()
-        self.refresh()
-        self.viewer.frame = -1  # a motion that rests somewhere gives way to the robot's own pose
+        """Every control back to where it started, and the end of a motion."""
+        with self._lock:
+            with self._silence():
+                for control in self._controls.values():
+                    control.reset()
+            self._end_motion()
+            self.refresh()
 
     def refresh(self, live: bool = False) -> None:
         """Update scene, text and plots from the controls; `live`: more values will follow at once."""
         with self._lock:
             try:
-                values = self.values
-                with self._silence():  # what update puts into controls is part of this update
-                    if self._update is not None:
-                        self._update(values)
-                        values = self.values
-                self.viewer.sync(self.scene)
-                self.line.value = self._words()
+                values = self._updated()
+                self.viewer.driven_by(self._drivers(values))
+                self.viewer.sync(self.scene, self.motion.frame if self.motion else None)
+                self.line.value = self._words(values)
                 for output in self.below:
                     if live and hasattr(output, "has_time") and not output.has_time():
                         if output not in self._stale:
@@ -160,18 +198,6 @@ class Panel(ipywidgets.VBox):
 
     def play(
         self,
-        poses: ArrayLike,
-        fps: float = 30.0,
-        loop: bool = False,
-        texts: Sequence[str] | None = None,
-        autoplay: bool = True,
-    ) -> None:
-        """Play transforms (N, k, 4, 4) of `scene.moving` in the page; see `Viewer.play`."""
-        with self._lock:
-            self.viewer.play(poses, fps, loop, texts, autoplay)
-
-    def play_theta(
-        self,
         thetas: ArrayLike,
         name: str = "robot",
         fps: float = 30.0,
@@ -180,25 +206,36 @@ class Panel(ipywidgets.VBox):
         autoplay: bool = True,
         follow: Callable[[np.ndarray], None] | None = None,
     ) -> None:
-        """Play joint values (N, n) of the robot `name`; the scene itself stays as it is.
+        """Play joint values (N, n) of the robot `name` in the page, with buttons to pause and scrub.
 
+        What the motion shows is what the panel shows: scene, sliders called "theta", text and plots go along,
+        and stand where it rests. The motion ends with the next change of a control that is no switch.
+
+        Parameters
+        ----------
+        thetas : (N, n)
+        fps, loop, texts, autoplay
+            As of `Viewer.play`.
         follow : function(theta), optional
-            Moves what goes with the arm (`Scene.move`), for one configuration.
+            Moves what goes with the arm (by its handle), so that the page has it for every frame.
         """
         with self._lock:
-            before, poses = self.scene.theta(name), []
-            for theta in (*np.asarray(thetas, float), before):
-                self.scene.set_theta(name, theta)
+            arm, poses = self.scene.robots[name], []
+            self.motion = None
+            motion = Motion(arm, np.array(thetas, float))
+            for theta in motion.thetas:
+                arm.theta = theta
                 if follow is not None:
                     follow(theta)
                 poses.append(self.scene.pose())
-            self.viewer.play(np.array(poses[:-1]), fps, loop, texts, autoplay)
+            with self._silence():
+                self.viewer.sync(self.scene)  # the paths that move, before what moves them
+                self.viewer.play(np.array(poses), fps, loop, texts, autoplay)
+            self.motion = motion
+            if not self._quiet:
+                self.refresh()
 
     # -- what a notebook stores
-
-    def to_html(self) -> str:
-        """The scene as a page that needs neither kernel nor network, as one string."""
-        return self.viewer.to_html()
 
     def __repr__(self) -> str:
         return f"{self.title}: {'closed' if self.scene is None else self.scene.text()}"
@@ -208,16 +245,16 @@ class Panel(ipywidgets.VBox):
 
     def close(self) -> None:
         """Close every widget of the panel: nothing of it stays in the kernel or the page."""
-        for key in [key for key, panel in _open.items() if panel is self]:
-            del _open[key]
+        cells.SHOWN.pop(self, None)
         _close_tree(self)
         # The notebook's Out[...] keeps the panel for ever: what it drew must not stay with it.
         if hasattr(self, "viewer"):  # a panel that was refused half-way has none
             self.viewer.forget()
-        self.below, self._controls, self._stale = [], {}, []
+        self.below, self._controls, self._stale, self.motion = [], {}, [], None
         self.scene = None  # type: ignore[assignment]  # closed: nothing may use it any more
         self.children = []
         self._update = self._text = None
+        self._drivers = self._theta_sliders
 
     # -- making it
 
@@ -229,7 +266,7 @@ class Panel(ipywidgets.VBox):
                 control.layout.width = "auto"
             else:
                 rows += control.sliders if isinstance(control, parts.Sliders) else [control]
-        reset = parts.Action("reset", act=lambda panel: panel.reset())
+        reset = parts.Action("reset", act=self.reset)
         reset.layout.width = "auto"
         flow = ipywidgets.Layout(display="flex", flex_flow="row wrap", grid_gap="2px 14px", width="100%")
         self._reset_button = reset
@@ -248,8 +285,34 @@ class Panel(ipywidgets.VBox):
         )
         return [ipywidgets.Box(self.below, layout=flow)]
 
-    def _words(self):
-        return self._text(self.values) if self._text is not None else self.scene.text()
+    def _put(self, values):
+        with self._silence():
+            for name, value in values.items():
+                self._controls[name].put(value)
+
+    def _updated(self):
+        """The values, once the scene shows them; read again where `update` put something into a control."""
+        with self._silence():
+            sliders = self._controls.get("theta")
+            if self.motion and isinstance(sliders, parts.JointSliders):
+                sliders.show(self.motion.theta)
+            values, self._was_put = self.values, False
+            if self._update is not None:
+                self._update(values)
+        if self.motion:
+            self.motion.arm.theta = self.motion.theta
+        return self.values if self._was_put else values
+
+    def drivers(self) -> Sequence[parts.Slider | None]:
+        """The slider of each joint of the robot "robot", by which the page moves it; [] where it cannot."""
+        return self._drivers(self.values) if self.viewer.drive else []
+
+    def _theta_sliders(self, _values):
+        sliders = self._controls.get("theta")
+        return sliders.used if isinstance(sliders, parts.JointSliders) else []
+
+    def _words(self, values):
+        return self._text(values) if self._text is not None else self.scene.text()
 
     def _widgets(self):
         for control in self._controls.values():
@@ -261,6 +324,8 @@ class Panel(ipywidgets.VBox):
     def _listen(self, widget):
         if widget.has_trait("value"):
             widget.observe(self._value_changed, "value")
+        if widget.has_trait("touched"):
+            widget.observe(self._answer, "touched")
         if widget.has_trait("live"):
             widget.observe(self._drag_ended, "live")
         if isinstance(widget, parts.Action) or getattr(widget, "clickable", False):
@@ -268,8 +333,33 @@ class Panel(ipywidgets.VBox):
 
     def _value_changed(self, change):
         with self._lock:
+            self._was_put = True
             if not self._quiet:
+                if not isinstance(change.owner, parts.Toggle):
+                    self._end_motion()
                 self.refresh(live=getattr(change.owner, "live", False))
+
+    def _answer(self, _change):
+        """Tell the page that its change has arrived, whatever came of it."""
+        with self._lock:
+            self.viewer.answers += 1
+
+    def _frame_changed(self, _change):
+        """The page shows another frame of the motion, or rests at one."""
+        with self._lock:
+            if self._quiet:
+                return
+            if self.motion is None or self.viewer.frame < 0:
+                self._end_motion()  # the page may not know yet that it has ended
+            elif (self.motion.frame, self._played) != (self.viewer.frame, self.viewer.playing):
+                last = len(self.motion.thetas) - 1
+                self.motion.frame, self._played = min(max(self.viewer.frame, 0), last), self.viewer.playing
+                self.refresh(live=self._played)
+
+    def _end_motion(self):
+        self.motion = None
+        with self._silence():
+            self.viewer.end()
 
     def _drag_ended(self, change):
         with self._lock:
@@ -280,7 +370,7 @@ class Panel(ipywidgets.VBox):
         with self._lock:
             if content.get("type") == "press" and widget.act is not None:
                 with self._silence():
-                    widget.act(self)
+                    widget.act()
                 self.refresh()
             elif content.get("type") == "click":
                 point = widget.point(content["x"], content["y"])
@@ -294,21 +384,6 @@ class Panel(ipywidgets.VBox):
             yield
         finally:
             self._quiet = before
-
-    def _replace_previous(self):
-        key = (self.name, _cell())
-        if key in _open:
-            _open[key].close()
-        _open[key] = self
-
-
-def _cell():
-    """The id of the notebook cell that runs now, where the front end tells it."""
-    with contextlib.suppress(Exception):
-        from IPython import get_ipython
-
-        return get_ipython().kernel.get_parent()["metadata"]["cellId"]
-    return None
 
 
 def _close_tree(widget):

@@ -26,8 +26,12 @@ SHADES = 96  # colors in the file
 LINE = 14  # pixels from one label to the next below it
 
 
-def draw(scene: Scene, width: int = 720, height: int = 440, view: str = "home") -> bytes:
-    """The scene from one of its views as PNG bytes; the same scene gives the same bytes."""
+def png(scene: Scene, width: int = 720, height: int = 440, view: str = "home") -> bytes:
+    """The scene from one of its views as PNG bytes; the same scene gives the same bytes.
+
+    >>> png(Scene(), 160, 120)[1:4]
+    b'PNG'
+    """
     eye = _Eye(scene.views[view], width * FINER, height * FINER)
     shown = [path for path in scene.parts if scene.visible(path)]
     worlds = scene.worlds(shown)

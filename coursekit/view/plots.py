@@ -33,8 +33,8 @@ class Plot(anywidget.AnyWidget):
         them do not count. What it sets with `Panel.set` draws the panel again.
     """
 
-    _esm = controls._SCRIPT
-    _css = controls._STATIC / "controls.css"
+    _esm = controls.SCRIPT
+    _css = controls.STATIC / "controls.css"
     kind = traitlets.Unicode("picture").tag(sync=True)
     png = traitlets.Bytes().tag(sync=True)
     alt = traitlets.Unicode().tag(sync=True)

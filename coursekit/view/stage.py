@@ -1,29 +1,8 @@
-"""The stage a robot stands on: a key light with a soft shadow, a sky, a floor for the shadow, a grid.
-
-Everything is scaled to `size`, the length of the arm, so that a planar toy and a welding robot look alike.
-"""
+"""The grid a robot stands on, scaled to `size`, the length of the arm: for page and picture."""
 
 from collections.abc import Iterator
 
 import numpy as np
-
-from .paint import PALETTE, buffers, channels, columns, document, linear
-
-STOCK = ("SpotLight", "PointLightNegativeX", "PointLightPositiveX", "AmbientLight", "FillLight")
-
-
-def commands(size: float, floor: float) -> Iterator[dict]:
-    """Meshcat commands for the light, the floor at height `floor`, and the grid on it."""
-    hide = ["/Grid", "/Axes", "/Background", *(f"/Lights/{name}" for name in STOCK)]
-    for path in hide:
-        yield {"type": "set_property", "path": path, "property": "visible", "value": False}
-    for name, thing in {
-        "key": _key_light(size, floor),
-        "sky": _sky(),
-        "floor": _floor(size, floor),
-        "grid": _grid(size, floor),
-    }.items():
-        yield {"type": "set_object", "path": f"/ck/stage/{name}", "object": thing}
 
 
 def spacing(size: float) -> tuple[float, float]:
@@ -68,61 +47,3 @@ def grid_lines(size: float, floor: float) -> tuple[np.ndarray, np.ndarray]:
             alpha.append(weight * fade[shown])
     flat = np.concatenate(pieces)
     return np.concatenate([flat, np.full((*flat.shape[:2], 1), floor)], axis=-1), np.concatenate(alpha)
-
-
-def _key_light(size, floor):
-    reach = 0.95 * size
-    camera = {"uuid": "shadow", "type": "OrthographicCamera", "left": -reach, "right": reach, "top": reach}
-    camera |= {"bottom": -reach, "near": 0.3 * size, "far": 4.5 * size}
-    shadow = {
-        "bias": -0.0004,
-        "normalBias": 0.008 * size,
-        "radius": 5.0,
-        "mapSize": [2048, 2048],
-        "camera": camera,
-    }
-    light = {
-        "type": "DirectionalLight",
-        "color": 0xFFF4E8,
-        "intensity": 0.75,
-        "castShadow": True,
-        "shadow": shadow,
-    }
-    return document({**light, "matrix": _at(0.8 * size, -0.95 * size, 1.9 * size + floor)})
-
-
-def _sky():
-    light = {"type": "HemisphereLight", "color": 0xF3F7FF, "groundColor": 0xB9B2A8, "intensity": 0.2}
-    # its place is its direction; the default would be sideways
-    return document({**light, "matrix": _at(0, 0, 1)})
-
-
-def _floor(size, floor):
-    s = 1.6 * size
-    corners = np.array([[-s, -s, 0], [s, -s, 0], [s, s, 0], [-s, s, 0]])
-    shape = buffers(corners, np.array([[0, 1, 2], [0, 2, 3]]), np.tile([0.0, 0.0, 1.0], (4, 1)))
-    # a black shadow, because a colored one would shine on a dark page
-    paint = {"type": "ShadowMaterial", "color": 0, "transparent": True, "opacity": 0.2, "depthWrite": False}
-    mesh = {"receiveShadow": True, "renderOrder": -3, "matrix": _at(0, 0, floor - 0.001 * size)}
-    return _one("Mesh", shape, paint, mesh)
-
-
-def _grid(size, floor):
-    pieces, alpha = grid_lines(size, floor)
-    rgb = np.tile(channels(linear(PALETTE["grid"])), (alpha.size, 1))
-    shape = buffers(pieces.reshape(-1, 3), rgba=np.column_stack([rgb, alpha.ravel()]))
-    paint = {"type": "LineBasicMaterial", "color": 0xFFFFFF, "vertexColors": True, "transparent": True}
-    return _one("LineSegments", shape, {**paint, "depthWrite": False}, {"renderOrder": -2})
-
-
-def _one(kind, shape, paint, more):
-    child = {"uuid": "part0", "type": kind, "geometry": "shape0", "material": "paint0", **more}
-    child.setdefault("matrix", _at(0, 0, 0))
-    group = {"type": "Group", "children": [child]}
-    return document(group, [{"uuid": "shape0", **shape}], [{"uuid": "paint0", **paint}])
-
-
-def _at(x, y, z):
-    T = np.eye(4)
-    T[:3, 3] = x, y, z
-    return columns(T)

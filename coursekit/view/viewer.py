@@ -7,14 +7,11 @@ view, a late view and a reloaded page come right by themselves:
     commands    meshcat's commands (set_object, set_transform, set_property), msgpack, by key
     pose        where everything that moves stands now: 16 numbers per path, one message per pose
     motion      many poses at once, stepped in the page
-
-This is the one module that knows meshcat.
 """
 
+import contextlib
 import functools
-import gzip
-import importlib.util
-import warnings
+import itertools
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -23,39 +20,21 @@ import anywidget
 import ipywidgets
 import numpy as np
 import traitlets
-import umsgpack
 from numpy.typing import ArrayLike
 
+from coursekit.view import meshcat
+from coursekit.view.controls import Slider
+from coursekit.view.meshcat import column_major
+from coursekit.view.picture import png
 from coursekit.view.scene import Scene
 
-_STATIC = Path(__file__).parent / "static"
-_SCRIPTS = ("bundle.js", "stage.js", "actors.js", "player.js", "viewer.js")
+STATIC = Path(__file__).parent / "static"
+_SCRIPTS = ("html", "bundle", "stage", "actors", "player", "kinematics", "follow", "viewer")
 
 
 def script() -> str:
     """The page's side of the viewer: one JavaScript module, joined from the files in `static/`."""
-    return "\n".join((_STATIC / name).read_text(encoding="utf-8") for name in _SCRIPTS)
-
-
-@functools.cache
-def bundle() -> bytes:
-    """meshcat's JavaScript bundle, gzipped (853 KB become 217 KB).
-
-    Found without importing meshcat, whose import costs half a second and warns about a library it uses.
-    """
-    found = importlib.util.find_spec("meshcat")
-    if found is None or found.origin is None:
-        raise ModuleNotFoundError("the viewer needs meshcat, which is not installed", name="meshcat")
-    package = Path(found.origin).parent
-    return gzip.compress((package / "viewer" / "dist" / "main.min.js").read_bytes(), 6, mtime=0)
-
-
-def column_major(T: ArrayLike) -> bytes:
-    """Bytes of transforms (..., 4, 4) as three.js reads them: float64, column by column."""
-    T = np.asarray(T, float)
-    if T.shape[-2:] != (4, 4):
-        raise ValueError(f"transforms must have shape (..., 4, 4), got {T.shape}")
-    return np.ascontiguousarray(np.swapaxes(T, -1, -2)).tobytes()
+    return "\n".join((STATIC / f"{name}.js").read_text(encoding="utf-8") for name in _SCRIPTS)
 
 
 class Viewer(anywidget.AnyWidget):
@@ -70,13 +49,15 @@ class Viewer(anywidget.AnyWidget):
     quality : {"auto", "high", "low"}
         "auto" draws half the pixels while something moves, if frames are slow; "low" also leaves out shadows
         and reflections (for computers without a graphics processor).
+    lock : context manager, optional
+        Held while a picture is drawn that the page asks for: nothing may change the scene meanwhile.
     """
 
     _esm = script()
-    _css = _STATIC / "viewer.css"
+    _css = STATIC / "viewer.css"
     _bundle_was_sent = False  # by any Viewer of this kernel
 
-    commands = traitlets.Dict().tag(sync=True, to_json=lambda _value, viewer: dict(viewer._packed))
+    commands = traitlets.Dict().tag(sync=True, to_json=lambda _value, viewer: dict(viewer.messages.packed))
     labels: traitlets.List = traitlets.List().tag(sync=True)
     ghosts: traitlets.List = traitlets.List().tag(sync=True)
     moving: traitlets.List = traitlets.List().tag(sync=True)
@@ -87,44 +68,88 @@ class Viewer(anywidget.AnyWidget):
     motion = traitlets.Dict().tag(sync=True)
     motion_poses = traitlets.Bytes().tag(sync=True)
     motion_texts: traitlets.List = traitlets.List().tag(sync=True)
-    frame = traitlets.Int(-1).tag(sync=True)  # pose of the motion that is shown; -1: `pose` is shown
+    frame = traitlets.Int(-1).tag(sync=True)  # pose of the motion that the page shows; -1: `pose` is shown
+    playing = traitlets.Bool(False).tag(sync=True)  # more frames will follow
+    drive = traitlets.Dict().tag(sync=True)  # how the page moves an arm by its sliders, see `driven_by`
+    theta: traitlets.List = traitlets.List().tag(sync=True)  # where that arm is in `pose`
+    controls: traitlets.List = traitlets.List().tag(
+        sync=True
+    )  # references to the models of a panel's controls
+    answers = traitlets.Int(0).tag(sync=True)  # counts what the kernel has answered, for pages that wait
     height = traitlets.Int(420).tag(sync=True)
     quality = traitlets.Enum(["auto", "high", "low"], "auto").tag(sync=True)
 
-    def __init__(self, scene: Scene, height: int = 420, quality: str = "auto") -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        height: int = 420,
+        quality: str = "auto",
+        lock: contextlib.AbstractContextManager | None = None,
+    ) -> None:
         self.scene = scene
-        self._drawn: dict[str, dict] = {}  # key -> the scene's command, to see what changed
-        self._packed: dict[str, bytes] = {}  # key -> its bytes
-        self._take(scene)
+        self._lock = lock or contextlib.nullcontext()
+        self.messages = meshcat.Messages()
+        self.messages.update(scene)
+        self._arms = [arm.robot for arm in scene.robots.values() if arm.style != "ghost"]
+        self._count = itertools.count(1)
         super().__init__(height=height, quality=quality, **self._state(scene))
         self.on_msg(self._answer)
         if not Viewer._bundle_was_sent:  # at once: the page must not wait until a busy kernel answers
             Viewer._bundle_was_sent = True
-            self.send({"type": "bundle"}, buffers=[bundle()])
+            self.send({"type": "bundle"}, buffers=[meshcat.bundle()])
 
-    def sync(self, scene: Scene | None = None) -> None:
+    def sync(self, scene: Scene | None = None, frame: int | None = None) -> None:
         """Send what changed in the scene since the last call, and nothing else.
 
-        A robot that moved away from the motion ends it; a label or a frame that is switched on does not.
+        frame : the pose of the motion that the scene shows; the motion goes on. Without it a scene that moved
+        away from what the motion shows ends it; a label or a frame that is switched on does not.
         """
         self.scene = scene = self.scene if scene is None else scene
-        changed, gone, deleted = self._take(scene)
+        changed, gone, deleted = self.messages.update(scene)
         if changed or gone:
             content = {"type": "commands", "keys": changed, "gone": gone, "delete": deleted}
-            self.send(content, buffers=[self._packed[key] for key in changed])
+            self.send(content, buffers=[self.messages.packed[key] for key in changed])
         state = self._state(scene)
         with self.hold_sync():
-            if state["pose"] != self.pose and not self._shows(state["pose"]):
-                self.frame = -1
+            arms = [arm.robot for arm in scene.robots.values() if arm.style != "ghost"]
+            moved = state["pose"] != self.pose and not self._shows(scene)
+            if arms != self._arms or (frame is None and moved):
+                self.end()
+            self._arms = arms
             for name, value in state.items():
                 setattr(self, name, value)
+
+    def end(self) -> None:
+        """Take the motion and its buttons away: the scene's own pose is shown."""
+        with self.hold_sync():
+            self.motion, self.motion_poses, self.motion_texts = {}, b"", []
+            self.frame, self.playing = -1, False
+
+    def driven_by(self, sliders: Sequence[Slider | None]) -> None:
+        """Let the page itself move the robot "robot" by these sliders, one or None for each joint.
+
+        No slider at all: only the kernel moves it.
+        """
+        arm = self.scene.robots.get("robot")
+        if arm is None or len(sliders) != arm.robot.n:
+            self.drive = {}
+            return
+        robot = arm.robot
+        self.drive = {
+            "path": arm.path,
+            "name": robot.name,
+            "screws": robot.S.T.tolist(),
+            "M": robot.M.T.ravel().tolist(),
+            "sliders": [slider and f"IPY_MODEL_{slider.model_id}" for slider in sliders],
+            "per": [slider.shown_per_si if slider else 1.0 for slider in sliders],
+        }
 
     def set_pose(self, transforms: ArrayLike) -> None:
         """Move what moves: transforms (k, 4, 4) in the order of `scene.moving`, in one message."""
         transforms = self._as_poses(transforms, 3)
         with self.hold_sync():
             self.pose = column_major(transforms)
-            self.frame = -1
+            self.end()
 
     def play(
         self,
@@ -150,54 +175,35 @@ class Viewer(anywidget.AnyWidget):
         count = len(transforms)
         if texts is not None and len(texts) != count:
             raise ValueError(f"texts must hold one line for each of the {count} frames, got {len(texts)}")
+        varies = np.flatnonzero(np.ptp(transforms, axis=0).any(axis=(1, 2)))  # the rest stands in `pose`
         with self.hold_sync():
-            self.motion_poses = column_major(transforms)
+            self.motion_poses = column_major(transforms[:, varies])
             self.motion_texts = list(texts or [])
-            self.frame = 0
+            self.frame, self.playing = 0, bool(autoplay)
             self.motion = {
-                "id": self.motion.get("id", 0) + 1,  # the same motion played again is a change, too
+                "id": next(self._count),  # the same motion played again is a change, too
                 "frames": count,
+                "moving": [self.moving[i] for i in varies],
                 "fps": float(fps),
                 "loop": bool(loop),
                 "autoplay": bool(autoplay),
             }
 
-    def stop(self) -> None:
-        """Take the motion and its buttons away and show the scene's own pose."""
-        with self.hold_sync():
-            self.motion, self.motion_poses, self.motion_texts, self.frame = {}, b"", [], -1
-
     def forget(self) -> None:
         """Let go of what was drawn, once the viewer is closed."""
-        self._drawn, self._packed = {}, {}
+        self.messages = meshcat.Messages()
         self.scene = None  # type: ignore[assignment]  # closed: nothing may use it any more
 
     @functools.cached_property
     def meshcat(self) -> Any:
         """A `meshcat.Visualizer` that draws into this viewer, for those who know meshcat."""
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", DeprecationWarning)  # meshcat imports a part of zmq that will go
-            import meshcat
-        return meshcat.Visualizer(window=self)
+        return meshcat.visualizer(self.send_command)
 
-    def send_command(self, key: str, command: dict) -> None:
-        """Send one raw meshcat command beside the scene's own; the same key replaces it later."""
-        self._packed[key] = umsgpack.packb(command)
-        self.send({"type": "commands", "keys": [key], "gone": [], "delete": []}, [self._packed[key]])
-
-    def send(self, content: Any, buffers: Sequence[bytes] | None = None) -> None:
-        """Send a custom message; a meshcat command object (from `meshcat.Visualizer`) is packed first."""
-        if hasattr(content, "lower"):
-            command = content.lower()
-            kind = command.get("property", "") if command["type"] == "set_property" else ""
-            return self.send_command(f"meshcat:{command['path']}:{command['type']}:{kind}", command)
-        return super().send(content, buffers)
-
-    def to_html(self) -> str:
-        """A page with this scene in 3D that needs neither kernel nor network, as one string."""
-        from coursekit.view.page import standalone
-
-        return standalone(self)
+    def send_command(self, key: str, packed: bytes) -> None:
+        """Send one raw meshcat command (msgpack) beside the scene's own; the same key replaces it later."""
+        self.messages.packed.pop(key, None)  # to the end: a view that comes late gets them in this order
+        self.messages.packed[key] = packed
+        self.send({"type": "commands", "keys": [key], "gone": [], "delete": []}, [packed])
 
     def __repr__(self) -> str:
         return f"Viewer({'closed' if self.scene is None else self.scene.text()})"
@@ -207,41 +213,27 @@ class Viewer(anywidget.AnyWidget):
 
     # -- what goes to the page
 
-    def _take(self, scene):
-        """Note the scene's commands: the keys that changed, those that are gone, and the paths to delete."""
-        new = dict(scene.commands)
-        gone = [key for key in self._drawn if key not in new]
-        deleted = [self._drawn[key]["path"] for key in gone if self._drawn[key]["type"] == "set_object"]
-        for key in gone:
-            self._packed.pop(key, None)
-        # deleting a path takes everything below it along: what is still there is sent again
-        beneath = tuple(path.rstrip("/") + "/" for path in deleted)
-        changed = [
-            key
-            for key, command in new.items()
-            if self._drawn.get(key) is not command or (command["path"] + "/").startswith(beneath)
-        ]
-        for key in changed:
-            self._packed[key] = umsgpack.packb(new[key])
-        self._drawn = new
-        return changed, gone, deleted
-
     def _state(self, scene):
         return {
             "labels": [dict(label) for label in scene.labels],
             "ghosts": [dict(ghost) for ghost in scene.ghosts],
             "moving": list(scene.moving),
             "pose": column_major(scene.pose()) if len(scene.moving) else b"",
+            "theta": scene.robots["robot"].theta.tolist() if "robot" in scene.robots else [],
             "camera": dict(scene.camera),
             "views": dict(scene.views),
             "description": scene.text(),
         }
 
-    def _shows(self, pose):
-        """Whether the frame of the motion at which the page rests is this pose (but for rounding)."""
-        begin = self.frame * len(pose)
-        shown = self.motion_poses[begin : begin + len(pose)] if self.frame >= 0 else b""
-        return len(shown) == len(pose) and np.allclose(np.frombuffer(shown), np.frombuffer(pose), atol=1e-12)
+    def _shows(self, scene):
+        """Whether the scene stands as in the frame of the motion that the page shows (but for rounding)."""
+        paths = self.motion.get("moving", [])
+        if self.frame < 0 or not set(paths) <= set(scene.moving):
+            return False
+        now = scene.pose()[[scene.moving.index(path) for path in paths]]
+        begin = self.frame * now.nbytes
+        shown = self.motion_poses[begin : begin + now.nbytes]
+        return np.allclose(np.frombuffer(shown), np.frombuffer(column_major(now)), atol=1e-12)
 
     def _as_poses(self, transforms: ArrayLike, dimensions: int) -> np.ndarray:
         transforms = np.asarray(transforms, float)
@@ -255,17 +247,19 @@ class Viewer(anywidget.AnyWidget):
 
     def _answer(self, _widget, content, _buffers):
         if content.get("type") == "need_bundle":
-            self.send({"type": "bundle"}, buffers=[bundle()])
+            self.send({"type": "bundle"}, buffers=[meshcat.bundle()])
         elif content.get("type") == "need_png":
             size = int(content.get("width", 640)), int(content.get("height", 420))
-            self.send({"type": "png"}, buffers=[self.scene.png(*size)])
+            with self._lock:
+                if self.scene is not None:  # closed meanwhile
+                    self.send({"type": "png"}, buffers=[png(self.scene, *size)])
 
 
 def mimebundle(widget: ipywidgets.Widget, text: str, scene: Scene, height: int) -> tuple[dict, dict]:
     """What a notebook stores for a widget: itself, a picture for readers without a kernel, and one line."""
     data = {
         "text/plain": text,
-        "image/png": scene.png(640, height),
+        "image/png": png(scene, 640, height),
         "application/vnd.jupyter.widget-view+json": {
             "version_major": 2,
             "version_minor": 0,

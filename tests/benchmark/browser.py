@@ -145,7 +145,7 @@ def stock(browser, moves, area):
         kr6 = robots.kuka_kr6()
         scene = view.Scene()
         scene.robot(kr6)
-        for command in scene.commands.values():
+        for command in view.meshcat.commands(scene).values():
             server.window.send(Raw(command))
         page = browser.new_page(viewport=area)
         page.goto(server.url())
@@ -176,7 +176,7 @@ def motion(notebook, quality):
     """One row: a motion of 101 poses at 30 frames a second."""
     page = notebook.page
     page.evaluate(POSES_SEEN)
-    notebook.kernel("panel.play_theta(np.linspace(kr6.home, kr6.home + 0.8, 101))")
+    notebook.kernel("panel.play(np.linspace(kr6.home, kr6.home + 0.8, 101))")
     page.wait_for_function(
         "() => document.querySelector('.ck-count').textContent === '101 / 101'", timeout=60_000
     )

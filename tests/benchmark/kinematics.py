@@ -1,10 +1,11 @@
-"""How fast the kinematics is, beside the libraries of the field: one process, one thread, CPU time, medians.
+"""How fast the kinematics is, beside the libraries of the field: one process, one thread, CPU time.
 
     python tests/benchmark/kinematics.py          (with the packages of requirements.txt in this folder)
 
-Prints microseconds per configuration of a KUKA KR6 and, where a goal is set, the ratio to the peer. A
-ratio is taken inside this process, so it means the same on a slow machine. Peers that are not installed are
-left out.
+Every line is measured five times, all lines in turn each time, because a machine is now faster and now
+slower: what is printed are medians and ranges of the five. Microseconds per configuration of a KUKA KR6 and,
+where a goal is set, the ratio to the peer, taken at the same moment. Peers that are not installed are left
+out. Before that, the arms of tests/urdf are compared with pinocchio's reading of the same files.
 Nothing in the test command reads this file.
 """
 
@@ -12,8 +13,11 @@ import os
 import sys
 import time
 import tracemalloc
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from statistics import median
 
 for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"
@@ -21,24 +25,61 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
 import numpy as np  # noqa: E402 (after the thread limits)
 
-from coursekit import ik, lie, robots, singularity  # noqa: E402
+from coursekit import Robot, ik, lie, robots, singularity  # noqa: E402
 
-REPEATS = 7
+RUNS = 5
 ROBOT = robots.kuka_kr6()
 RNG = np.random.default_rng(2026)
 THETA = RNG.uniform(ROBOT.q_min, ROBOT.q_max, (10_000, 6))
 POSES = ROBOT.fk(THETA)
+URDFS = Path(__file__).resolve().parents[1] / "urdf"
+
+
+@dataclass
+class Line:
+    """One line of the table: `run` handles `count` configurations, the peer's `run` so many of its own."""
+
+    what: str
+    run: Callable[[], object]
+    count: int
+    peer: str = ""
+    peer_run: Callable[[], object] | None = None
+    peer_count: int = 1
+    goal: float | None = None
+    own_times: list[float] = field(default_factory=list)
+    peer_times: list[float] = field(default_factory=list)
+
+    def measure(self):
+        self.own_times.append(cost(self.run, self.count))
+        if self.peer_run:
+            self.peer_times.append(cost(self.peer_run, self.peer_count))
+
+    def __str__(self):
+        text = f"{self.what:<58}{spread(self.own_times)} us"
+        if not self.peer_run:
+            return text
+        ratios = [peer / own for own, peer in zip(self.own_times, self.peer_times, strict=True)]
+        text += f"   {self.peer}: {spread(self.peer_times)} us, ratio {spread(ratios)}"
+        if self.goal is not None:
+            reached = "reached" if median(ratios) >= self.goal else "NOT reached"
+            text += f" (goal {self.goal:g}: {reached})"
+        return text
+
+
+def spread(values):
+    """Median and range, in three figures."""
+    low, middle, high = (f"{value:.3g}" for value in (min(values), median(values), max(values)))
+    return f"{middle} ({low} to {high})"
 
 
 def cost(function, count):
-    """Median CPU time of `function()` over REPEATS runs, in microseconds per item."""
-    function()
+    """CPU time of `function()` in microseconds per item: the quicker of two calls."""
     times = []
-    for _ in range(REPEATS):
+    for _ in range(2):
         start = time.process_time()
         function()
         times.append(time.process_time() - start)
-    return 1e6 * sorted(times)[REPEATS // 2] / count
+    return 1e6 * min(times) / count
 
 
 def looped(function, items):
@@ -122,76 +163,103 @@ def modern_robotics():
 # -- what is measured ---------------------------------------------------------------------------------------
 
 
-def report(what, own, peer=None, peer_name="", goal=None):
-    ratio = f"{peer / own:8.1f}x" if peer else " " * 9
-    target = (
-        f"   goal {goal:g}x: {'reached' if peer / own >= goal else 'NOT reached'}" if goal and peer else ""
-    )
-    other = f"{peer:10.2f} {peer_name}" if peer else ""
-    print(f"{what:<46}{own:10.3f} us{ratio}  {other}{target}")
+def lines():
+    """Every line of the table, with the peers that are installed."""
+    pin, rtb, mr, solver = pinocchio(), toolbox(), modern_robotics(), eaik()
+    n = len(THETA)
 
+    def beside(line, peer, run=None, count=1, goal=None):
+        if run:
+            line.peer, line.peer_run, line.peer_count, line.goal = peer, run, count, goal
+        return line
 
-def forward_kinematics():
-    own = cost(lambda: ROBOT.fk(THETA), len(THETA))
-    pin, rtb, mr = pinocchio(), toolbox(), modern_robotics()
-    report("forward kinematics, 10^4 at once", own)
-    if pin:
-        report("  against a looped call", own, cost(looped(pin[0], THETA), len(THETA)), "pinocchio", 3.5)
-    if rtb:
-        report("  against a batch in C++", own, cost(rtb, len(THETA)), "roboticstoolbox", 1.8)
-    if mr:
-        one = cost(looped(lambda q: mr.FKinSpace(ROBOT.M, ROBOT.S, q), THETA[:200]), 200)
-        report("  against a looped call", own, one, "Modern Robotics")
-    report("forward kinematics, one at a time", cost(looped(ROBOT.fk, THETA[:1000]), 1000))
+    fk = lambda: ROBOT.fk(THETA)  # noqa: E731
+    space = lambda: ROBOT.jacobian_space(THETA)  # noqa: E731
     million = RNG.uniform(ROBOT.q_min, ROBOT.q_max, (1_000_000, 6))
-    large = cost(lambda: ROBOT.fk(million), len(million))
-    report(f"forward kinematics, 10^6: {large / own:.2f} times the cost at 10^4 (goal 1.3)", large)
+    twists = RNG.normal(size=(n, 6))
+    transforms = lie.exp6(twists)
+    targets, guess = POSES[:100], ROBOT.home
+    theta = np.zeros((200, 200, 6))
+    theta[..., 1], theta[..., 2] = np.meshgrid(np.linspace(-3, 1, 200), np.linspace(-2, 2.5, 200))
+    theta[..., 4] = 0.6
+    damped = looped(lambda T: ik.damped_least_squares(ROBOT, T, guess), targets)
+    textbook = mr and looped(lambda T: mr.IKinBody(ROBOT.B, ROBOT.M, T, guess, 1e-6, 1e-6), targets[:20])
+    restarts = lambda: ik.damped_least_squares(  # noqa: E731
+        ROBOT, POSES, guess, restarts=20, rng=np.random.default_rng(0)
+    )
+    forward, jacobian = pin or (None, None)
+    return [
+        beside(
+            Line("forward kinematics, 10^4 at once", fk, n),
+            "pinocchio, looped",
+            forward and looped(forward, THETA),
+            n,
+            6,
+        ),
+        beside(Line("forward kinematics, 10^4 at once", fk, n), "roboticstoolbox's batch in C++", rtb, n, 3),
+        Line("forward kinematics, 10^6 at once", lambda: ROBOT.fk(million), len(million)),
+        beside(
+            Line("forward kinematics, one at a time", looped(ROBOT.fk, THETA[:1000]), 1000),
+            "Modern Robotics",
+            mr and looped(lambda q: mr.FKinSpace(ROBOT.M, ROBOT.S, q), THETA[:100]),
+            100,
+        ),
+        Line("link frames, 10^4 at once", lambda: ROBOT.link_frames(THETA), n),
+        beside(
+            Line("space Jacobian, 10^4 at once", space, n),
+            "pinocchio, looped bare call",
+            jacobian and looped(jacobian, THETA),
+            n,
+            2.5,
+        ),
+        Line("determinant over a map of 200 x 200", lambda: singularity.determinant(ROBOT, theta), 40_000),
+        Line("exp6, 10^4 at once", lambda: lie.exp6(twists), n),
+        Line("log6, 10^4 at once", lambda: lie.log6(transforms), n),
+        beside(
+            Line("analytic inverse, all eight, 10^4 at once", lambda: ik.analytic(ROBOT, POSES), n),
+            "EAIK, a call per pose",
+            solver and looped(solver, POSES[:2000]),
+            2000,
+            4,
+        ),
+        Line("Newton, one at a time", looped(lambda T: ik.newton(ROBOT, T, guess), targets), len(targets)),
+        beside(Line("damped, one at a time", damped, len(targets)), "IKinBody", textbook, 20, 20),
+        Line(f"damped, restarts, 10^4 targets ({100 * restarts().converged.mean():.2f} %)", restarts, n),
+    ]
+
+
+def urdfs():
+    """The arms of tests/urdf against pinocchio's reading of the same files: largest difference of poses."""
+    try:
+        import pinocchio as pin
+    except ImportError:
+        return
+    for path in sorted(URDFS.glob("*.urdf")):
+        tip = "tcp_link" if path.stem == "franka_panda_hand" else None
+        robot, model = Robot.from_urdf(path, tip), pin.buildModelFromUrdf(str(path))
+        data, worst = model.createData(), 0.0
+        frame = model.getFrameId(tip) if tip else model.nframes - 1
+        for _ in range(100):
+            q = RNG.uniform(-2, 2, robot.n)
+            full = pin.neutral(model)
+            for joint, angle in zip(list(model.joints)[1 : robot.n + 1], q, strict=True):
+                endless = joint.nq == 2  # pinocchio keeps the cosine and sine of a joint without limits
+                full[joint.idx_q : joint.idx_q + joint.nq] = (
+                    (np.cos(angle), np.sin(angle)) if endless else angle
+                )
+            pin.framesForwardKinematics(model, data, full)
+            worst = max(worst, np.abs(data.oMf[frame].homogeneous - robot.fk(q)).max())
+        print(f"{path.name:<28} {robot.n} joints, {worst:.1e} from pinocchio")
+
+
+def memory():
+    """What a million forward kinematics need beyond their result."""
+    million = RNG.uniform(ROBOT.q_min, ROBOT.q_max, (1_000_000, 6))
     tracemalloc.start()
     T = ROBOT.fk(million)
     peak = tracemalloc.get_traced_memory()[1] - T.nbytes
     tracemalloc.stop()
-    print(f"  peak memory beyond the result: {peak / 1e6:.1f} MB (goal 10 MB)")
-    report("link frames, 10^4 at once", cost(lambda: ROBOT.link_frames(THETA), len(THETA)))
-
-
-def jacobians():
-    own, pin = cost(lambda: ROBOT.jacobian_space(THETA), len(THETA)), pinocchio()
-    report("space Jacobian, 10^4 at once", own)
-    if pin:
-        report("  against a looped bare call", own, cost(looped(pin[1], THETA), len(THETA)), "pinocchio", 1.5)
-    theta = np.zeros((200, 200, 6))
-    theta[..., 1], theta[..., 2] = np.meshgrid(np.linspace(-3, 1, 200), np.linspace(-2, 2.5, 200))
-    theta[..., 4] = 0.6
-    milliseconds = cost(lambda: singularity.determinant(ROBOT, theta), 1) / 1000
-    print(f"determinant over a 200 x 200 map: {milliseconds:.1f} ms (goal 25 ms)")
-    twists = RNG.normal(size=(10_000, 6))
-    transforms = lie.exp6(twists)
-    report("exp6, 10^4 at once", cost(lambda: lie.exp6(twists), len(twists)))
-    report("log6, 10^4 at once", cost(lambda: lie.log6(transforms), len(twists)))
-
-
-def inverse_kinematics():
-    own, solver, mr = cost(lambda: ik.analytic(ROBOT, POSES), len(POSES)), eaik(), modern_robotics()
-    report("analytic, all eight, with limits, 10^4 at once", own)
-    if solver:
-        report("  against a call per pose", own, cost(looped(solver, POSES[:2000]), 2000), "EAIK", 3)
-    targets, guess = POSES[:300], ROBOT.home
-    solved = [ik.newton(ROBOT, T, guess).converged for T in targets]
-    one = cost(looped(lambda T: ik.newton(ROBOT, T, guess), targets), len(targets))
-    report(f"Newton, one at a time, {100 * np.mean(solved):.1f} % from home", one)
-    damped = [ik.damped_least_squares(ROBOT, T, guess).converged for T in targets]
-    one = cost(looped(lambda T: ik.damped_least_squares(ROBOT, T, guess), targets), len(targets))
-    report(f"damped, one at a time, {100 * np.mean(damped):.1f} % from home (goal 97 %)", one)
-    if mr:
-        textbook = lambda T: mr.IKinBody(ROBOT.B, ROBOT.M, T, guess, 1e-6, 1e-6)  # noqa: E731
-        right = 100 * np.mean([textbook(T)[1] for T in targets[:100]])
-        peer = cost(looped(textbook, targets[:100]), 100)
-        report("  against its IKinBody", one, peer, f"Modern Robotics ({right:.0f} %)", 20)
-    solve = lambda: ik.damped_least_squares(ROBOT, POSES, guess, restarts=20, rng=np.random.default_rng(0))  # noqa: E731
-    found = solve().converged.mean()
-    report(
-        f"damped, restarts, 10^4 targets, {100 * found:.2f} % (goals 100 %, 20 us)", cost(solve, len(POSES))
-    )
+    print(f"peak memory of 10^6 forward kinematics beyond the result: {peak / 1e6:.1f} MB (goal 10 MB)")
 
 
 def main():
@@ -202,12 +270,14 @@ def main():
             found.append(f"{name} {version(name)}")
         except PackageNotFoundError:
             found.append(f"{name} not installed")
-    print(
-        f"Python {sys.version.split()[0]}, {', '.join(found)}; one thread, CPU time, medians of {REPEATS}\n"
-    )
-    forward_kinematics()
-    jacobians()
-    inverse_kinematics()
+    print(f"Python {sys.version.split()[0]}, {', '.join(found)}; one thread, CPU time, {RUNS} runs in turn\n")
+    urdfs()
+    memory()
+    table = lines()
+    for _ in range(RUNS):
+        for line in table:
+            line.measure()
+    print("\n" + "\n".join(map(str, table)))
 
 
 if __name__ == "__main__":

@@ -91,7 +91,7 @@ def test_keyboard_and_drag_move_the_robot_exactly(explorer):
 
 
 def test_number_box_takes_any_number_and_keeps_to_the_limits(explorer):
-    box = explorer.page.locator("input[type=number]").nth(4)
+    box = explorer.page.locator(".ck-number").nth(4)
     box.fill("12.345")
     box.press("Enter")
     settle(explorer)

@@ -15,6 +15,7 @@ import pytest
 
 from coursekit import robots
 from coursekit.view import text
+from tests.browser.explorer import Explorer
 from tests.browser.lab import Notebook
 
 pytestmark = pytest.mark.browser
@@ -27,81 +28,6 @@ COUNT_WEBGL = """
       if (/webgl/.test(kind)) window.webgl.add(this);
       return original.call(this, kind, ...rest);
     };"""
-
-
-class Explorer:
-    """The explorer of a notebook, open in the browser, and its panel in the kernel."""
-
-    def __init__(self, notebook, panel, robot):
-        self.notebook, self.page, self.robot = notebook, notebook.page, robot
-        panels = "__import__('coursekit.view.panel', fromlist=['_open'])._open.values()"
-        self.panel = f"next(p for p in {panels} if p.name == {panel!r})"
-
-    def kernel(self, attribute):
-        """A value of the panel, such as "values['theta'].tolist()"."""
-        return self.notebook.kernel(f"{self.panel}.{attribute}")
-
-    def values(self, name="theta"):
-        return np.array(self.kernel(f"values[{name!r}].tolist()"))
-
-    def words(self):
-        """The text under the picture, as the page shows it."""
-        return self.page.locator(".ck-control .ck-text").first.inner_text()
-
-    def slide(self, label, keys):
-        """Give keys to the slider with this label."""
-        handle = self.page.get_by_role("slider", name=label, exact=True)
-        handle.focus()
-        for key in keys:
-            self.page.keyboard.press(key)
-        self.settle()
-
-    def choose(self, label, option):
-        self.page.get_by_role("combobox", name=label, exact=True).select_option(option)
-        self.settle()
-
-    def press(self, name):
-        self.page.get_by_role("button", name=name, exact=True).click()
-
-    def settle(self):
-        """Wait until the kernel has the last value and the page its pose."""
-        self.page.wait_for_timeout(250)
-        self.notebook.idle()
-        self.notebook.rest()
-
-    def assert_arm_stands_at(self, theta):
-        """Every link of the arm in the page is where the kinematics put it."""
-        moved = self.robot.displacements(theta)
-        last = self.notebook.wait_transform(f"/ck/robot/{self.robot.n}", moved[-1])
-        np.testing.assert_allclose(last, moved[-1], rtol=0, atol=1e-9)
-        for k in range(self.robot.n):
-            found = self.notebook.transform(f"/ck/robot/{k + 1}")
-            np.testing.assert_allclose(found, moved[k], rtol=0, atol=1e-9)
-
-    def pause_from(self, number):
-        """Press pause as soon as this pose of a motion is shown; the number of the pose where it rests."""
-        self.page.wait_for_function("() => parseInt(document.querySelector('.ck-count').textContent) > 0")
-        return self.page.evaluate(
-            """async (number) => {
-                 const shown = () => parseInt(document.querySelector(".ck-count").textContent);
-                 while (shown() < number) await new Promise(requestAnimationFrame);
-                 const button = document.querySelector(".ck-play");
-                 if (button.textContent === "pause") button.click(); // from outside it would come late
-                 const rests = shown();
-                 await new Promise((done) => setTimeout(done, 700));
-                 return button.textContent === "play" && shown() === rests ? rests : -1;
-               }""",
-            number,
-        )
-
-    def played_to_the_end(self, poses):
-        """Wait for the last pose of a motion that plays."""
-        end = f"{poses} / {poses}"
-        self.page.wait_for_function(
-            "end => document.querySelector('.ck-count').textContent === end", arg=end, timeout=60_000
-        )
-        self.page.wait_for_function("() => document.querySelector('.ck-play').textContent === 'play'")
-        self.settle()
 
 
 # -- what is special about each explorer: move it, and compare the page with the kinematics ----------------
@@ -126,7 +52,7 @@ def screws(explorer):
 
 def inverse(explorer):
     explorer.slide("x", ["PageUp"])
-    shown = np.array(explorer.kernel("scene.theta('robot').tolist()"))
+    shown = np.array(explorer.kernel("scene.robots['robot'].theta.tolist()"))
     explorer.assert_arm_stands_at(shown)
     x, y, z = explorer.values("pose")[:3]
     np.testing.assert_allclose(explorer.robot.fk(shown)[:3, 3], [x, y, z], atol=1e-12)
@@ -137,7 +63,9 @@ def inverse(explorer):
     explorer.settle()
     assert "shown: front elbow-up no-flip" in explorer.words()
     np.testing.assert_allclose(
-        explorer.robot.fk(explorer.kernel("scene.theta('robot').tolist()"))[:3, 3], [x, y, z], atol=1e-12
+        explorer.robot.fk(explorer.kernel("scene.robots['robot'].theta.tolist()"))[:3, 3],
+        [x, y, z],
+        atol=1e-12,
     )
 
     explorer.press("show Newton's steps")
@@ -192,13 +120,13 @@ def path(explorer):
     place = explorer.pause_from(5) - 1
     assert 4 <= place < 100
     explorer.settle()
-    theta = np.array(explorer.kernel("scene.theta('robot').tolist()"))
+    theta = np.array(explorer.kernel("scene.robots['robot'].theta.tolist()"))
     explorer.assert_arm_stands_at(theta)
     assert f"point {place + 1} of 101" in explorer.page.locator(".ck-text").first.inner_text()
     explorer.page.get_by_label("playing speed").select_option("1")
     explorer.press("play the motion")
     explorer.played_to_the_end(101)
-    last = np.array(explorer.kernel("scene.theta('robot').tolist()"))
+    last = np.array(explorer.kernel("scene.robots['robot'].theta.tolist()"))
     explorer.assert_arm_stands_at(last)
     tool = explorer.robot.fk(last)[:3, 3]
     np.testing.assert_allclose(np.linalg.norm(tool - [0, 0, 0.5]), 0.5, atol=1e-9)  # on the sphere

@@ -15,7 +15,7 @@ DRAWN = "() => document.querySelector('.ck-viewer')?.coursekit?.stage.frames > 0
 
 def test_a_motion_plays_to_its_last_pose_and_can_be_scrubbed(notebook, lab):
     motion = "q = np.linspace(kr6.home, kr6.home + 0.5, 101)\n"
-    motion += "panel.play_theta(q, texts=[f'pose {k}' for k in range(101)])"
+    motion += "panel.play(q, texts=[f'pose {k}' for k in range(101)])"
     notebook.open(lab.write("motion.ipynb", IMPORT, SHOW, motion))
     notebook.run_all()
     notebook.wait_view()
@@ -36,8 +36,13 @@ def test_a_motion_plays_to_its_last_pose_and_can_be_scrubbed(notebook, lab):
     fourth = kr6.fk(kr6.home + 0.5 * 3 / 100)
     np.testing.assert_allclose(notebook.wait_transform(TOOL, fourth), fourth, rtol=0, atol=1e-12)
 
-    page.locator("[role=slider]").first.press("PageUp")  # a slider ends the motion
-    expected = kr6.fk(kr6.home + np.radians([10, 0, 0, 0, 0, 0]))
+    notebook.idle()
+    notebook.rest()
+    page.locator("[role=slider]").first.press("PageUp")  # a slider ends the motion, where it rests
+    notebook.idle()
+    theta = notebook.kernel("panel.values['theta'].tolist()")
+    np.testing.assert_allclose(theta, kr6.home + 0.5 * 3 / 100 + np.radians([10, 0, 0, 0, 0, 0]), atol=1e-9)
+    expected = kr6.fk(theta)
     np.testing.assert_allclose(notebook.wait_transform(TOOL, expected), expected, rtol=0, atol=1e-12)
     assert notebook.errors == []
 
@@ -103,7 +108,7 @@ def test_a_page_of_its_own_turns_offline_under_any_policy(browser, tmp_path, pol
     kr6 = robots.kuka_kr6()
     panel = view.explore(kr6)
     panel.set(theta=kr6.home + 0.3)
-    page_text = panel.to_html()
+    page_text = view.to_html(panel)
     panel.close()
     if policy:
         meta = f'<meta http-equiv="Content-Security-Policy" content="{policy}">'

@@ -9,6 +9,7 @@ import sys
 
 import pytest
 
+from coursekit import robots
 from coursekit.classroom.course import the_course
 from coursekit.classroom.grader import locked
 from coursekit.classroom.grader.box import bubblewrap
@@ -56,6 +57,17 @@ def test_allowed_works_and_everything_else_raises(probed):
     assert probed[2:7] == ["LibraryLocked"] * 5
 
 
+def test_every_robot_can_be_made_where_answers_are_locked(tmp_path):
+    """An exercise may hand over any arm, also one whose tables are made from its axes, and its fk."""
+    locked.write_files(locked.locked_files(("robots", "robot.Robot.fk")), tmp_path)
+    code = "from coursekit import robots\nfor arm in robots.all().values(): print(arm.fk(arm.home).shape)"
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    run = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, cwd=tmp_path
+    )
+    assert run.stdout.splitlines() == ["(4, 4)"] * len(robots.all()), run.stderr
+
+
 def test_view_and_check_do_nothing(probed):
     assert probed[7:] == ["works", "works", "none"]
 
@@ -77,8 +89,8 @@ def test_every_allowed_name_exists():
     """A misprint on a list would lock what students need."""
     names = {
         name
-        for path in (locked.PACKAGE / "kinematics").glob("*.py")
-        for name, _ in locked._functions(path.stem, ast.parse(path.read_text("utf-8")))
+        for file, source in locked.locked_sources(()).items()
+        for name, _ in locked._functions(locked._module(file), ast.parse(source))
     }
     prefixes = {name.rsplit(".", k)[0] for name in names for k in (0, 1, 2)} | names
     course = the_course()

@@ -30,9 +30,9 @@ ROOMS = {
 }
 # where the classroom shows what a wrong answer looks like
 MAY_DRAW = {"coursekit/classroom/picture.py"}
-# the mathematics needs numpy alone; the exceptions, and whether they may be imported at the top of the file
+# the mathematics needs numpy alone; the exception
 MATHEMATICS = {"numpy"}
-EXCEPTIONS = {("symbolic", "sympy"): True, ("path", "scipy"): False}
+EXCEPTIONS = {("symbolic", "sympy")}
 
 
 def relative(path):
@@ -105,13 +105,11 @@ def test_rooms_import_only_downwards(path):
     assert not upwards, f"{relative(path)} imports {upwards}, from a room that does not stand below it"
 
 
-@pytest.mark.parametrize("path", sorted((PACKAGE / "kinematics").glob("*.py")), ids=relative)
+@pytest.mark.parametrize("path", sorted((PACKAGE / "kinematics").rglob("*.py")), ids=relative)
 def test_mathematics_needs_numpy_alone(path):
     topic = path.stem.split("_")[0]
-    for module, at_top in imports_of(path):
-        for name in third_party([(module, at_top)]) - MATHEMATICS:
-            assert (topic, name) in EXCEPTIONS, f"{relative(path)} imports {module}"
-            assert EXCEPTIONS[topic, name] or not at_top, f"{relative(path)} imports {name} before it is used"
+    for name in third_party(imports_of(path)) - MATHEMATICS:
+        assert (topic, name) in EXCEPTIONS, f"{relative(path)} imports {name}"
 
 
 @pytest.mark.parametrize("path", [path for path in SOURCES if path.name != "__main__.py"], ids=relative)
@@ -193,3 +191,14 @@ def test_jupyterlab_has_the_courses_settings():
     shipped = PACKAGE / "view" / "static" / "overrides.json"
     installed = Path(sys.prefix) / "share" / "jupyter" / "lab" / "settings" / "overrides.json"
     assert json.loads(installed.read_text()) == json.loads(shipped.read_text())
+
+
+@pytest.mark.parametrize(
+    ("room", "place"),
+    [("lab", "share/jupyter/labextensions/coursekit"), ("server", "etc/jupyter/jupyter_server_config.d")],
+)
+def test_jupyterlab_has_what_moves_saved_explorers(room, place):
+    shipped = PACKAGE / "view" / "static" / room
+    for path in (path for path in shipped.rglob("*") if path.is_file()):
+        installed = Path(sys.prefix) / place / path.relative_to(shipped)
+        assert installed.read_bytes() == path.read_bytes(), "install again: pip install -e ."

@@ -62,3 +62,17 @@ def test_mypy_finds_nothing():
         [sys.executable, "-m", "mypy", "--cache-dir", cache], cwd=ROOT, capture_output=True, text=True
     )
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_mypy_finds_a_misprint_in_what_a_robot_is_told(tmp_path):
+    if not find_spec("mypy"):
+        pytest.skip("mypy is not installed (pip install -r tests/requirements.txt)")
+    calls = ["Robot(S, M, {}=[0])", "Robot.from_screws(S, M, {}=[0])", "Robot.from_axes(S, S, M, {}=[0])"]
+    right, wrong = ([call.format(keyword) for call in calls] for keyword in ("home", "hone"))
+    code = tmp_path / "calls.py"
+    code.write_text("\n".join(["from coursekit import Robot", "S = M = [[0.0]]", *right, *wrong, ""]))
+    cache = ROOT / ".pytest_cache" / "mypy"
+    command = [sys.executable, "-m", "mypy", "--cache-dir", cache, code]
+    found = subprocess.run(command, cwd=ROOT, capture_output=True, text=True).stdout
+    lines = [int(line.split(":")[1]) for line in found.splitlines() if "error:" in line]
+    assert lines == [6, 7, 8], found

@@ -19,6 +19,14 @@ GOLDEN_ROBOTS = {
     "planar_2r": "planar_2r",
     "puma560": "puma560",
     "ur5": "ur5",
+    "adept_cobra600": "scara",
+    "stanford_arm": "stanford",
+}
+# those with as many hinges as a pose has numbers
+SIX_HINGES = {
+    full: name
+    for full, name in GOLDEN_ROBOTS.items()
+    if name not in ("franka_panda", "planar_2r", "scara", "stanford")
 }
 
 

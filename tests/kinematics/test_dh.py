@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from coursekit import Robot, dh, lie, rotations
+from coursekit import Robot, dh, lie, robots, rotations
 
 SHAPES = [(), (1,), (3, 1, 2)]
 
@@ -181,6 +181,105 @@ def test_the_common_normal_is_perpendicular_to_both_axes_and_shortest(draw):
     assert np.cos(alpha) == pytest.approx(S_1[:3] @ S_2[:3], abs=1e-12)
     reciprocal = S_1[:3] @ S_2[3:] + S_1[3:] @ S_2[:3]  # = -+ a sin alpha
     assert abs(reciprocal) == pytest.approx(a * sine, abs=10 * slack)
+
+
+# -- the table from the axes --
+
+
+def exact_axes(rng, n):
+    """Axes as drawings have them: along x, y or z, points on a coarse grid, so that every case occurs."""
+    signs = rng.choice([-1.0, 1.0], (n, 1))
+    return np.eye(3)[rng.integers(0, 3, n)] * signs, rng.integers(-2, 3, (n, 3)) / 4
+
+
+def pose_on_the_grid(rng):
+    T = np.eye(4)
+    T[:3, :3] = rotations.rotz(np.pi / 2 * rng.integers(4)) @ rotations.rotx(np.pi / 2 * rng.integers(4))
+    T[:3, 3] = rng.integers(-2, 3, 3) / 4
+    return T
+
+
+@pytest.mark.parametrize("convention", dh.CONVENTIONS)
+@pytest.mark.parametrize("draw", range(60))
+def test_a_table_from_axes_is_the_same_arm(draw, convention):
+    rng = np.random.default_rng(draw)
+    n = int(rng.integers(1, 8))
+    if draw % 3:
+        (w, q), M = exact_axes(rng, n), pose_on_the_grid(rng)
+    else:
+        w, q, M = rng.normal(size=(n, 3)), rng.uniform(-1, 1, (n, 3)), random_pose(rng)
+    types = rng.choice(["revolute", "prismatic"], n)
+    table = dh.from_axes(w, q, M, types, convention)
+    assert (table.convention, table.joint_types) == (convention, tuple(types))
+    robot = Robot.from_axes(w, q, M, types)
+    S, home = table.screws()
+    slack = 1e-14 if draw % 3 else 1e-12  # random axes may be nearly parallel
+    assert np.abs(S - robot.S).max() < slack and np.abs(home - M).max() < slack
+    theta = rng.uniform(-2, 2, (20, n))
+    assert np.abs(table.fk(theta) - robot.fk(theta)).max() < 10 * slack
+
+
+@pytest.mark.parametrize("draw", range(40))
+def test_the_steps_are_rows_with_their_reasons(draw):
+    rng = np.random.default_rng(draw)
+    (w, q), M = exact_axes(rng, 6), pose_on_the_grid(rng)
+    steps, table = dh.steps(w, q, M), dh.from_axes(w, q, M)
+    for key in ("a", "alpha", "d", "theta"):
+        assert [getattr(step, key) for step in steps] == getattr(table, key).tolist()
+    frames = np.concatenate([[table.base], table.frames(np.zeros(6))])
+    lines = [*zip(w, q, strict=True), (M[:3, 2], M[:3, 3])]
+    for i, step in enumerate(steps):
+        (z, p), (z_next, p_next) = lines[i], lines[i + 1]
+        for foot, direction, point in ((step.foot_1, z, p), (step.foot_2, z_next, p_next)):
+            assert np.abs(np.cross(foot - point, direction)).max() < 1e-14  # each foot is on its line
+        assert np.abs(frames[i + 1, :3, 3] - step.foot_2).max() < 1e-14
+        assert np.abs(frames[i + 1, :3, 0] - step.x).max() < 1e-14
+        assert abs(step.x @ z) < 1e-14 and abs(step.x @ z_next) < 1e-14
+        along, across = np.abs(z @ z_next) == 1, np.linalg.norm(step.foot_2 - step.foot_1)
+        assert (
+            step.case
+            == {
+                (True, True): "parallel",
+                (True, False): "same line",
+                (False, True): "skew",
+                (False, False): "meeting",
+            }[along, bool(across > 1e-9)]
+        )
+        assert (step.free == "") == (step.case == "skew")
+
+
+def test_the_table_of_the_kr6_comes_out_of_its_axes():
+    """Lengths and twists of the published table up to signs that the procedure leaves free."""
+    kr6 = robots.kuka_kr6()
+    table = dh.from_axes(kr6.S[:3].T, kr6.places, kr6.M)
+    assert np.abs(np.abs(table.a) - np.abs(kr6.standard_dh.a)).max() < 1e-15
+    assert np.abs(np.abs(table.alpha)[:5] - np.abs(kr6.standard_dh.alpha)[:5]).max() < 1e-15
+    assert np.abs(np.abs(table.d)[1:5] - np.abs(kr6.standard_dh.d)[1:5]).max() < 1e-15
+
+
+@pytest.mark.parametrize(
+    "call, message",
+    [
+        (
+            lambda: dh.from_axes([[0, 0, 0]], [[0, 0, 0]], np.eye(4)),
+            "dh.from_axes: the axis of joint 1 has dir",
+        ),
+        (lambda: dh.from_axes([[0, 0, 1]], [[0, 0]], np.eye(4)), r"dh.from_axes: q must have shape"),
+        (lambda: dh.from_axes([[0, 0, 1]], [[0, 0, 0]], np.eye(3)), "dh.from_axes: M must have shape"),
+        (
+            lambda: dh.from_axes([[0, 0, 1]], [[0, 0, 0]], np.eye(4), "RR"),
+            "joint_types must name 1 joints, got 2",
+        ),
+        (
+            lambda: dh.from_axes([[0, 0, 1]], [[0, 0, 0]], np.eye(4), "R", "craig"),
+            "convention must be one of",
+        ),
+        (lambda: dh.steps([[0, 0, 1]], [[0, 0]], np.eye(4)), "dh.steps: q must have shape"),
+    ],
+)
+def test_axes_that_make_no_table(call, message):
+    with pytest.raises(ValueError, match=message):
+        call()
 
 
 # -- what is refused --

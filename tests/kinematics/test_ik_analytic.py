@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from coursekit import Robot, ik, lie, robots
 
-from .conftest import GOLDEN_ROBOTS, load
+from .conftest import SIX_HINGES as SIX
+from .conftest import load
 
-SIX = {full: name for full, name in GOLDEN_ROBOTS.items() if name not in ("franka_panda", "planar_2r")}
 ALL = robots.all()
 RNG = np.random.default_rng(7)
 
@@ -273,6 +273,19 @@ def test_reasons_too_near_axis_1():
     T[:3, 3] = [0.05, 0, 0.9]
     text = "wrist centre is 0.050 m from axis 1 and cannot come nearer than 0.150 m"
     assert ik.analytic(robot, T).reasons() == (text,) * 8
+
+
+@pytest.mark.parametrize("name", ["kuka_kr6", "puma560"])
+def test_a_joint_at_its_limit_is_inside(name):
+    robot, rng = ALL[name], np.random.default_rng(0)
+    theta = rng.uniform(robot.q_min, robot.q_max, (200, 6))
+    rows, joint = np.arange(200), rng.integers(0, 6, 200)
+    theta[rows, joint] = np.where(rng.random(200) < 0.5, robot.q_min[joint], robot.q_max[joint])
+    solutions = ik.analytic(robot, robot.fk(theta))
+    k = solutions.nearest(theta)
+    assert turned_apart(solutions.theta[rows, k], theta).max() < 1e-9
+    assert solutions.within_limits[rows, k].all()
+    assert all(solutions.reasons(i)[k[i]] == "" for i in range(200))
 
 
 def test_reasons_of_limits():

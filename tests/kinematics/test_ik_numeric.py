@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from coursekit import Robot, ik, lie, robots
-from coursekit.kinematics import ik_numeric
-from coursekit.kinematics.ik_iterate import _arrays, _numbers, look
+from coursekit.kinematics.ik import engine, iteration
+from coursekit.kinematics.ik.engine import _arrays, _numbers, look
 
 from .conftest import GOLDEN_ROBOTS, load
 
@@ -98,7 +98,7 @@ def test_near_guesses_converge_in_every_shape(method, shape):
     found = METHODS[method](robot, T, theta + RNG.uniform(-0.05, 0.05, (*shape, 6)), tol=1e-7)
     assert found.theta.shape == (*shape, 6) and found.error.shape == (*shape, 2)
     assert np.shape(found.converged) == np.shape(found.reason) == np.shape(found.iterations) == shape
-    assert np.all(found.converged) and np.all(found.reason == ik_numeric.CONVERGED)
+    assert np.all(found.converged) and np.all(found.reason == iteration.CONVERGED)
     assert np.abs(robot.fk(found.theta) - T).max() < 1e-6
     assert np.all(found.error < 1e-7)
     assert np.shape(found.within_limits) == shape
@@ -125,6 +125,35 @@ def test_one_and_many_go_the_same_way():
             assert np.allclose(one.theta, many.theta[i], atol=1e-6)
 
 
+@pytest.mark.parametrize("name", ["kuka_kr6", "franka_panda", "ur5", "scara", "stanford"])
+@pytest.mark.parametrize("method", ["newton", "damped", "transpose"])
+def test_the_engine_goes_the_way_of_the_plain_loop(method, name):
+    """Step by step from the same guess: where the book's loop is, the fast one is, alone and in a batch."""
+    robot = ALL[name]
+    theta = robot.home + RNG.uniform(-0.2, 0.2, robot.n)
+    T, guess = robot.fk(theta), theta + RNG.uniform(-0.1, 0.1, robot.n)
+    step, fast = {
+        "newton": (ik.newton_step, ik.newton),
+        "damped": (
+            lambda J, e: ik.dls_step(J, e, 0.05),
+            lambda *a, **k: ik.damped_least_squares(*a, damping=0.05, **k),
+        ),
+        "transpose": (
+            lambda J, e: ik.transpose_step(J, e, 0.3),
+            lambda *a, **k: ik.transpose(*a, gain=0.3, **k),
+        ),
+    }[method]
+    one = fast(robot, T, guess, max_iterations=12, tol=1e-9)
+    for k, seen in enumerate(one.history):
+        plain, count = ik.by_the_book(robot, T, guess, step, max_iterations=k, tol=1e-9)
+        assert count == k and np.abs(plain - seen.theta).max() < 1e-9
+    assert ik.by_the_book(robot, T, guess, step, 12, 1e-9)[1] == one.iterations
+    many = fast(robot, np.tile(T, (3, 1, 1)), guess, max_iterations=12, tol=1e-9)
+    assert many.iterations.tolist() == [one.iterations] * 3
+    if one.converged:
+        assert np.abs(many.theta - one.theta).max() < 1e-9
+
+
 def test_tables_of_the_kuka_report():
     robot, numbers = ALL["kuka_kr6"], load("numbers_of_the_sources")["TPK4170 report"]
     T = robot.fk([2, -1, -1, 2.5, 0.6, 0])
@@ -146,6 +175,18 @@ def test_from_home_most_targets_are_reached_and_all_with_restarts():
     assert np.abs(robot.fk(again.theta) - T).max() < 1e-9
     at_once = once.converged & (once.iterations <= 20)
     assert np.array_equal(again.theta[at_once], once.theta[at_once])
+
+
+def test_singular_targets_are_solved_one_by_one_and_together():
+    """At a singular solution J J^T has no inverse; damping in proportion to the error gives it none."""
+    robot = ALL["kuka_kr6"]
+    theta = RNG.uniform(-1, 1, (200, 6))
+    theta[:, 4] = 0
+    T = robot.fk(theta)
+    found = ik.damped_least_squares(robot, T, theta + 0.1, restarts=3)
+    assert found.converged.mean() > 0.95
+    assert np.abs(robot.fk(found.theta) - T)[found.converged].max() < 1e-9
+    assert all(np.isfinite(ik.damped_least_squares(robot, T[i], theta[i]).theta).all() for i in range(20))
 
 
 def test_restarts_are_reproducible():
@@ -173,7 +214,7 @@ def test_out_of_reach_ends_at_the_closest_pose(method):
     T = robot.M.copy()
     T[:3, 3] *= 1.6
     found = METHODS[method](robot, T, robot.home)
-    assert not found.converged and found.reason == ik_numeric.CLOSEST
+    assert not found.converged and found.reason == iteration.CLOSEST
     nearest = np.linalg.norm(T[:3, 3] - [0.025, 0, 0.4]) - 0.455 - np.hypot(0.42, 0.035) - 0.08
     assert nearest - 1e-3 < found.error[1] < 1.02 * nearest
     assert np.isclose(np.linalg.norm(T[:3, 3] - robot.fk(found.theta)[:3, 3]), found.error[1])
@@ -184,20 +225,33 @@ def test_out_of_reach_ends_at_the_closest_pose(method):
     assert robot.fk(found.history[0].theta).tolist() == robot.fk(robot.home).tolist()
 
 
+def test_the_way_downhill_keeps_its_last_step(monkeypatch):
+    robot = ALL["kuka_kr6"]
+    start = np.array([[0.3, -1, 0.6, 0.4, 0.9, 0.2]])
+    goal = robot.fk(start + 0.3)
+    scores = []
+    for steps in (0, 1, 2):
+        monkeypatch.setattr(engine, "DOWNHILL", steps)
+        end = engine.closest(robot, goal, start, 1e-10)
+        scores.append(end.score[0])
+        assert np.allclose(robot.fk(end.theta)[0, :3, 3] - goal[0, :3, 3], 0, atol=end.error[0, 1] + 1e-12)
+    assert scores[0] > scores[1] > scores[2]
+
+
 def test_out_of_reach_in_a_batch_leaves_the_others_alone():
     robot = ALL["kuka_kr6"]
     T = robot.fk(np.array([0.3, -1, 0.6, 0.4, 0.9, 0.2]) + RNG.uniform(-0.1, 0.1, (4, 6)))
     T[2, :3, 3] *= 3
     found = ik.damped_least_squares(robot, T, [0.3, -1, 0.6, 0.4, 0.9, 0.2], restarts=2)
     assert found.converged.tolist() == [True, True, False, True]
-    assert found.reason[2] == ik_numeric.CLOSEST
+    assert found.reason[2] == iteration.CLOSEST
 
 
 def test_too_few_iterations():
     robot = ALL["kuka_kr6"]
     T = robot.fk([0.3, -1, 0.6, 0.4, 0.9, 0.2])
     found = ik.transpose(robot, T, [0.3, -1, 0.6, 0.4, 0.8, 0.2], max_iterations=3)
-    assert not found.converged and found.reason == ik_numeric.LIMIT and found.iterations == 3
+    assert not found.converged and found.reason == iteration.LIMIT and found.iterations == 3
     assert found.error.tolist() == found.history[-1].error.tolist()
     assert np.array_equal(found.theta, found.history[-1].theta)
 
@@ -209,12 +263,12 @@ def test_too_much_gain_wanders():
     good = ik.transpose(robot, robot.fk(theta), theta + 0.01, gain=0.9 * bound, max_iterations=3000)
     bad = ik.transpose(robot, robot.fk(theta), theta + 0.01, gain=1.5 * bound, max_iterations=3000)
     assert good.converged and not bad.converged
-    assert bad.reason == ik_numeric.WANDERING
+    assert bad.reason == iteration.WANDERING
 
 
 def test_diverging_numbers_are_called_so():
     far = ik.transpose(SLIDING, SLIDING.fk([0.4, 0.1, -0.2]), np.zeros(3), gain=50.0, max_iterations=2000)
-    assert not far.converged and far.reason == ik_numeric.DIVERGED
+    assert not far.converged and far.reason == iteration.DIVERGED
     assert np.isfinite(far.theta).all()
 
 
@@ -268,7 +322,7 @@ def test_nan_in_nan_out(method):
     for T, theta0 in ((nan, robot.home), (robot.M, robot.home * np.nan)):
         found = METHODS[method](robot, T, theta0)
         assert np.isnan(found.theta).all() and np.isnan(found.error).all()
-        assert not found.converged and found.reason == ik_numeric.NOT_A_NUMBER and not found.within_limits
+        assert not found.converged and found.reason == iteration.NOT_A_NUMBER and not found.within_limits
     theta = np.array([0.3, -1, 0.6, 0.4, 0.9, 0.2])
     found = METHODS[method](robot, np.stack([robot.fk(theta), nan]), theta + 0.01, tol=1e-6)
     assert found.converged[0] and np.isnan(found.theta[1]).all()

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.interpolate import CubicSpline
 
-from coursekit import lie, path, robots, rotations
+from coursekit import ik, lie, path, robots, rotations
+from coursekit.kinematics import spline
 
 EXACT = 1e-11  # golden points, frames and branches are rounded to 12 decimals
 BOUND = 2.0  # rad/s, the bound of the RPI mini project for every joint
@@ -92,6 +94,31 @@ def test_resampling_a_circle_keeps_to_it():
     assert np.abs(points[-1] - circle[-1]).max() <= 1e-14
 
 
+@pytest.mark.parametrize("m", [2, 3, 4, 5, 17, 400])
+def test_the_spline_is_scipys(m):
+    rng = np.random.default_rng(m)
+    x = np.cumsum(rng.uniform(0.01, 1, m) ** 3) - 1  # steps from 1e-6 to 1
+    y = rng.normal(size=(m, 3))
+    at = np.concatenate([np.linspace(x[0], x[-1], 500), x])
+    expected = CubicSpline(x, y)(at)
+    assert np.abs(spline.not_a_knot(x, y, at) - expected).max() <= 1e-11 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("degree", range(4))
+def test_a_cubic_is_its_own_spline(degree):
+    x = np.array([0, 0.3, 1, 1.1, 2.5, 4])
+    at = np.linspace(0, 4, 50)
+    assert np.abs(spline.not_a_knot(x, x[:, None] ** degree, at)[:, 0] - at**degree).max() <= 1e-13
+
+
+def test_resampling_a_letter_is_what_scipy_makes_of_it():
+    letter = np.random.default_rng(1).uniform(-0.3, 0.3, (9, 2))
+    points = path.on_sphere(letter)
+    length = np.append(0, np.cumsum(path.steps(points)))
+    expected = CubicSpline(length, points)(np.linspace(0, length[-1], 301))
+    assert np.abs(path.resample(points, 301) - expected).max() <= 1e-14
+
+
 # -- a curve of your own --
 
 
@@ -138,6 +165,42 @@ def test_unreadable_curves_name_the_line(text, message):
 
 
 # -- following it --
+
+
+def test_tracing_goes_where_the_closed_form_goes(branches):
+    T = path.frames(path.s_curve(101))
+    start = branches[101][:, 0]
+    q = path.trace(ABB, T, start + 0.05)
+    assert np.abs(q - branches[101]).max() < 1e-8
+    found = ik.search(ABB, T[0]).theta
+    assert path.trace(ABB, T, found).shape == (8, 101, 6)
+    assert np.abs(path.trace(ABB, T, start[3]) - q[3]).max() < 1e-8
+
+
+def test_a_redundant_arm_comes_back_with_other_angles():
+    """A circle of 0.1 m with the Panda: the tool is exact, the joints have drifted after a lap."""
+    panda = robots.franka_panda()
+    home = panda.fk(panda.home)
+    T = np.tile(home, (200, 1, 1))
+    turn = np.linspace(0, 2 * np.pi, 200)
+    T[:, 1, 3] += 0.1 * np.sin(turn)
+    T[:, 2, 3] += 0.1 * (1 - np.cos(turn))
+    q = path.trace(panda, T, panda.home)
+    assert np.abs(panda.fk(q) - T).max() < 1e-9
+    assert np.abs(np.diff(q, axis=0)).max() < 0.05
+    assert 0.01 < np.abs(q[-1] - q[0]).max() < 0.5
+
+
+def test_a_path_of_one_pose_is_its_solutions():
+    T = path.frames(path.s_curve(21))[:1]
+    assert np.array_equal(path.follow(ABB, T)[:, 0], ik.analytic(ABB, T[0]).theta, equal_nan=True)
+
+
+def test_tracing_ends_where_the_arm_does():
+    T = path.frames(path.s_curve(21))
+    T[11:, :3, 3] *= 3
+    q = path.trace(ABB, T, path.follow(ABB, T[:1])[:, 0])
+    assert path.points_reached(q).tolist() == [11] * 8
 
 
 def test_golden_branches(branches, golden):

@@ -110,7 +110,7 @@ def test_link_frames_ride_on_their_links(draw):
     theta = rng.uniform(-3, 3, (4, robot.n))
     frames, D = robot.link_frames(theta), robot.displacements(theta)
     at_zero = robot.link_frames(np.zeros(robot.n))
-    assert np.array_equal(frames[:, -1], D[:, -1] @ robot.M)
+    assert np.abs(frames[:, -1] - D[:, -1] @ robot.M).max() <= 1e-14
     assert np.abs(frames[:, -1] - robot.fk(theta)).max() <= 1e-14
     assert np.abs(frames - D @ at_zero).max() <= 1e-14
     for i in range(robot.n - 1):  # the last frame is the tool's
@@ -137,6 +137,93 @@ def test_link_frames_of_a_modified_table_are_its_frames(draw):
     frames = Robot.from_dh(table).link_frames(q)
     assert np.abs(frames[:, :-1] - table.frames(q)[:, :-1]).max() <= 1e-14
     assert np.abs(frames[:, -1] - table.fk(q)).max() <= 1e-14
+
+
+# -- where joints stand --
+
+SCARA = {
+    "w": [[0, 0, 1]] * 4,
+    "q": [[0, 0, 0.4], [0.325, 0, 0.4], [0.6, 0, 0.4], [0.6, 0, 0.2]],
+    "M": [[1, 0, 0, 0.6], [0, -1, 0, 0], [0, 0, -1, 0.2], [0, 0, 0, 1]],
+    "joint_types": "RRPR",
+}
+
+
+def test_axes_keep_the_places_where_they_were_put():
+    robot = Robot.from_axes(**SCARA)
+    assert robot.places.tolist() == SCARA["q"]
+    assert robot.link_frames(np.zeros(4))[:3, :3, 3].tolist() == SCARA["q"][:3]  # link 4 carries the tool
+    T = lie.exp6([0.3, -0.2, 0.5, 0.1, 0.2, 0.3])
+    moved = robot.with_base(T).places - (robot.places @ T[:3, :3].T + T[:3, 3])
+    assert np.abs(moved).max() < 1e-15
+    assert robot.with_tool(T).places.tolist() == SCARA["q"]
+
+
+def test_screws_have_no_places_but_the_nearest():
+    robot = Robot.from_axes(**SCARA)
+    bare = Robot.from_screws(robot.S, robot.M)
+    assert bare.places.tolist() == [[0, 0, 0], [0.325, 0, 0], [0.325, 0, 0], [0.6, 0, 0]]
+    placed = Robot.from_screws(robot.S, robot.M, places=SCARA["q"])
+    theta = np.random.default_rng(0).uniform(-2, 2, (9, 4))
+    for other in (bare, placed):
+        assert np.abs(other.fk(theta) - robot.fk(theta)).max() < 1e-15
+    assert np.abs(placed.link_frames(theta) - robot.link_frames(theta)).max() < 1e-15
+
+
+def test_a_place_beside_its_axis_is_refused():
+    with pytest.raises(ValueError, match=r"Nemo: place 2 is 0\.1 m beside its axis"):
+        Robot.from_axes(**SCARA, places=[*SCARA["q"][:1], [0.325, 0.1, 0.7], *SCARA["q"][2:]], name="Nemo")
+    slid = Robot.from_axes(**SCARA, places=[*SCARA["q"][:2], [0.6, 0.1, 0.7], SCARA["q"][3]])
+    assert slid.places[2].tolist() == [0.6, 0.1, 0.7]  # a slide stands anywhere
+
+
+def test_a_table_says_where_its_joints_stand():
+    table = dh.Table([0.325, 0.275, 0, 0], [0, np.pi, 0, 0], [0.4, 0, 0.1, 0], [0] * 4, joint_types="RRPR")
+    robot = Robot.from_dh(table)
+    assert np.abs(robot.places - table.to_modified().frames(np.zeros(4))[:, :3, 3]).max() < 1e-15
+
+
+@pytest.mark.parametrize("draw", range(20))
+def test_every_arm_has_both_tables(draw):
+    rng = np.random.default_rng(draw)
+    robot = random_robot(rng)
+    theta = rng.uniform(-2, 2, (5, robot.n))
+    for table, convention in ((robot.standard_dh, "standard"), (robot.modified_dh, "modified")):
+        assert table.convention == convention
+        assert np.abs(table.fk(theta) - robot.fk(theta)).max() < 1e-11  # axes may be nearly parallel
+    assert random_robot(rng, 4, helical=True).standard_dh is None or "prismatic" in robot.joint_types
+
+
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        # where a slide stands, S does not say: the fault shows at the next hinge
+        ({"a": [0.325, 0.3, 0, 0]}, r"after row 3 of the standard DH table axis 4 is 0 rad and 0\.025 m off"),
+        ({"alpha": [0, 0, 0, 0]}, "after row 2 of the standard DH table axis 3 is 2 rad and 0 m off"),
+        ({"d": [0.4, 0, 0.3, 0]}, r"after row 4 of the standard DH table the tool is 0 rad and 0\.1 m off"),
+        ({"joint_types": "RRRR"}, "after row 2 of the standard DH table axis 3 is 1 rad and"),
+        (
+            {"convention": "modified"},
+            r"after row 1 of the modified DH table axis 1 is 0 rad and 0\.325 m off",
+        ),
+        (
+            {"base": lie.exp6([0, 0, 0, 1, 0, 0])},
+            "after the base of the DH table axis 1 is 0 rad and 1 m off",
+        ),
+    ],
+)
+def test_a_table_of_another_arm_is_refused(change, message):
+    columns = {"a": [0.325, 0.275, 0, 0], "alpha": [0, np.pi, 0, 0], "d": [0.4, 0, 0.2, 0], "theta": [0] * 4}
+    columns["joint_types"] = "RRPR"
+    robot = Robot.from_dh(dh.Table(**columns))
+    with pytest.raises(ValueError, match=f"Nemo: {message}"):
+        Robot.from_screws(robot.S, robot.M, name="Nemo", standard_dh=dh.Table(**{**columns, **change}))
+
+
+def test_a_table_of_other_length_is_refused():
+    table = dh.Table([0.5], [0], [0], [0])
+    with pytest.raises(ValueError, match="Nemo: the standard DH table has 1 rows for 4 joints"):
+        Robot.from_axes(**SCARA, name="Nemo", standard_dh=table)
 
 
 # -- Jacobians --
@@ -233,6 +320,13 @@ def test_limits_wider_than_a_turn_keep_the_angle():
     robot = one_joint(low=-6.2, high=6.2)
     assert robot.nearest_turn([5.0])[0] == 5.0
     assert robot.nearest_turn([7.0])[0] == pytest.approx(7.0 - 2 * np.pi)
+
+
+def test_a_limit_is_kept_to_a_nanoradian():
+    robot = one_joint()
+    assert robot.within_limits([[-0.5 - 9e-10], [2.5 + 9e-10], [2.5 + 9e-10 - 2 * np.pi]]).all()
+    assert not robot.within_limits([[-0.5 - 2e-9], [2.5 + 2e-9]]).any()
+    assert robot.nearest_turn([2.5 + 9e-10])[0] == 2.5 + 9e-10  # told as it is, not moved to the limit
 
 
 def test_nan_is_outside_and_no_limits_are_no_limits():

@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from coursekit import Robot, jacobians, lie, robots, singularity
-from tests.kinematics.conftest import GOLDEN_ROBOTS
+from coursekit import Robot, ik, jacobians, lie, robots, singularity
+from tests.kinematics.conftest import GOLDEN_ROBOTS, SIX_HINGES
 
 SHAPES = [(), (1,), (3, 1, 2)]
 GOLDEN = {name: robots.all()[key] for name, key in GOLDEN_ROBOTS.items()}
-SIX = {name: robot for name, robot in GOLDEN.items() if robot.n == 6}
+SIX = {name: GOLDEN[name] for name in SIX_HINGES}
 
 
 def random_angles(robot, count=300, seed=0):
@@ -242,10 +242,10 @@ def slide_joint_3(w, q, types):
     "change, reason",
     [
         (tilt_axis_3, "axes 2 and 3 are not parallel"),
-        (move_axis_6, "axes 5 and 6 do not meet in one point"),
+        (move_axis_6, r"axes 4, 5 and 6 miss a common point by"),
         (
             move_axis_4,
-            "axis 4 neither passes through the point where axes 5 and 6 meet nor is parallel to axes 2",
+            r"axes 4, 5 and 6 miss a common point by 0\.0.* m \(no spherical wrist\), and axes 2, 3",
         ),
         (slide_joint_3, "its joints are not all hinges"),
     ],
@@ -256,6 +256,18 @@ def test_factors_name_the_condition_that_fails(change, reason):
         robot = other_geometry(lambda w, q, types: (move_axis_6(w, q, types), w.__setitem__(5, [-1, 0.2, 0])))
     with pytest.raises(ValueError, match=f"det J of changed has no factors wrist, elbow, shoulder: {reason}"):
         singularity.factors(robot, np.zeros(6))
+
+
+@pytest.mark.parametrize("off, same", [(5e-11, True), (5e-10, False)])
+def test_factors_and_the_inverse_agree_on_what_a_wrist_is(off, same):
+    """One tolerance: axis 6 beside the others is a wrist for both or for neither."""
+    robot = other_geometry(lambda w, q, types: q.__setitem__(5, q[5] + [0, off, 0]))
+    for judge in (lambda: ik.analytic(robot, robot.M), lambda: singularity.factors(robot, np.zeros(6))):
+        if same:
+            judge()
+        else:
+            with pytest.raises(ValueError, match="axes 4, 5 and 6 miss a common point by"):
+                judge()
 
 
 def test_what_is_refused():

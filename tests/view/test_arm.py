@@ -90,7 +90,7 @@ def test_every_part_is_a_closed_surface_seen_from_outside(robot):
 @every_robot
 def test_neighbouring_links_touch_in_every_pose(robot):
     joints = chain.chain(robot).joints
-    links = [surface(parts, 3) for parts in arm.solid(robot)]
+    links = [surface(parts, 9) for parts in arm.solid(robot)]
     for theta in poses(robot):
         moved = [np.eye(4), *robot.displacements(theta)]
         for i, joint in enumerate(joints):

@@ -24,20 +24,20 @@ def ghosts(panel):
 
 def test_it_opens_at_the_pose_of_the_report(panel):
     kr6 = robots.kuka_kr6()
-    np.testing.assert_allclose(panel.scene.theta(), [2, -1, -1, 2.5, 0.6, 0], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(panel.scene.robots["robot"].theta, [2, -1, -1, 2.5, 0.6, 0], rtol=0, atol=1e-9)
     assert "8 of 8 solutions, 8 inside the limits; shown: front elbow-down no-flip" in panel.line.value
     assert "6 steps to back elbow-down no-flip" in panel.line.value
     assert len(ghosts(panel)) == 7
     target = kr6.fk([2, -1, -1, 2.5, 0.6, 0])
     for name in ("robot", *ghosts(panel)):
-        np.testing.assert_allclose(kr6.fk(panel.scene.theta(name)), target, rtol=0, atol=1e-12)
+        np.testing.assert_allclose(kr6.fk(panel.scene.robots[name].theta), target, rtol=0, atol=1e-12)
 
 
 def test_the_table_chooses_the_solid_arm(panel):
     kr6 = robots.kuka_kr6()
     expected = ik.analytic(kr6, kr6.fk([2, -1, -1, 2.5, 0.6, 0]))
     panel.set(solution=6)
-    np.testing.assert_allclose(panel.scene.theta(), expected.theta[6], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(panel.scene.robots["robot"].theta, expected.theta[6], rtol=0, atol=1e-9)
     assert "branch6" not in ghosts(panel) and "branch2" in ghosts(panel)
     rows = panel._controls["solution"].rows
     assert [row[0] for row in rows] == list(expected.branches)
@@ -52,8 +52,10 @@ def test_moving_the_target_keeps_the_branch(panel):
     for theta in ([1.8, -1.1, -0.9, 2.4, 0.7, 0.1], [1.6, -1.2, -0.8, 2.2, 0.8, 0.2]):
         T = kr6.fk(theta)
         panel.set(pose=pose_values(T))
-        np.testing.assert_allclose(kr6.fk(panel.scene.theta()), T, rtol=0, atol=1e-12)
-        np.testing.assert_allclose(panel.scene.theta(), ik.analytic(kr6, T).turned[7], rtol=0, atol=1e-9)
+        np.testing.assert_allclose(kr6.fk(panel.scene.robots["robot"].theta), T, rtol=0, atol=1e-12)
+        np.testing.assert_allclose(
+            panel.scene.robots["robot"].theta, ik.analytic(kr6, T).turned[7], rtol=0, atol=1e-9
+        )
 
 
 def test_a_branch_that_ends_hands_over_to_the_nearest(panel):
@@ -64,18 +66,18 @@ def test_a_branch_that_ends_hands_over_to_the_nearest(panel):
     assert solutions.exists.sum() == 4
     panel.set(pose=pose_values(T))
     assert "4 of 8 solutions" in panel.line.value
-    np.testing.assert_allclose(kr6.fk(panel.scene.theta()), T, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(kr6.fk(panel.scene.robots["robot"].theta), T, rtol=0, atol=1e-12)
     assert len(ghosts(panel)) == 3
 
 
 def test_out_of_reach_the_arm_stays_and_the_closest_pose_is_shown(panel):
-    before, pose = panel.scene.theta(), panel.values["pose"]
+    before, pose = panel.scene.robots["robot"].theta, panel.values["pose"]
     pose[2] = 1.6
     panel.set(pose=pose)
-    np.testing.assert_array_equal(panel.scene.theta(), before)
+    np.testing.assert_array_equal(panel.scene.robots["robot"].theta, before)
     assert "out of reach" in panel.line.value
     assert ghosts(panel) == ["closest"]
-    gap = np.linalg.norm(robots.kuka_kr6().fk(panel.scene.theta("closest"))[:3, 3] - pose[:3])
+    gap = np.linalg.norm(robots.kuka_kr6().fk(panel.scene.robots["closest"].theta)[:3, 3] - pose[:3])
     assert f"{1000 * gap:.1f} mm away" in panel.line.value
     assert all(row[1] == "-" for row in panel._controls["solution"].rows)
     panel.reset()
@@ -101,7 +103,7 @@ def test_every_arm_with_a_formula(name):
     robot = robots.all()[name]
     panel = view.explore_inverse(robot)
     try:
-        T = robot.fk(panel.scene.theta())
+        T = robot.fk(panel.scene.robots["robot"].theta)
         np.testing.assert_allclose(T[:3, 3], panel.values["pose"][:3], rtol=0, atol=1e-9)
     finally:
         panel.close()

@@ -17,7 +17,7 @@ def panel():
 
 def test_it_opens_near_a_singularity_and_inside_the_limits(panel):
     panda = robots.franka_panda()
-    theta = panel.scene.theta()
+    theta = panel.scene.robots["robot"].theta
     assert panda.within_limits(theta)
     assert singularity.sigma_min(panda, theta) < 0.06
     assert panel.values["linear"] and not panel.values["angular"]
@@ -74,23 +74,23 @@ def test_newton_leaps_and_damping_tames_it(panel):
 
 def test_the_actions_move_the_arm_and_play_both_runs(panel):
     near = panel.values["theta"]
-    panel._controls["newton"].act(panel)
-    panel._controls["damped"].act(panel)
-    panel._controls["bent"].act(panel)
-    np.testing.assert_array_equal(panel.scene.theta(), robots.franka_panda().home)
+    panel._controls["newton"].act()
+    panel._controls["damped"].act()
+    panel._controls["bent"].act()
+    np.testing.assert_array_equal(panel.scene.robots["robot"].theta, robots.franka_panda().home)
     assert "Newton: 0 steps" in panel.line.value  # it stands at the target
-    panel._controls["newton"].act(panel)
-    panel._controls["near"].act(panel)
-    np.testing.assert_array_equal(panel.scene.theta(), near)
+    panel._controls["newton"].act()
+    panel._controls["near"].act()
+    np.testing.assert_array_equal(panel.scene.robots["robot"].theta, near)
 
 
 def test_the_ellipsoids_go_along_while_a_run_is_played(panel):
     panda, start = robots.franka_panda(), panel.values["theta"]
     before = panel.scene.pose()
-    panel._controls["damped"].act(panel)
+    panel._controls["damped"].act()
     played = np.frombuffer(panel.viewer.motion_poses).reshape(panel.viewer.motion["frames"], -1, 4, 4)
     steps = ik.damped_least_squares(panda, panda.fk(panda.home), start, damping=0.1, tol=1e-8).history
-    body = panel.scene.moving.index("/ck/linear/body")
+    body = panel.viewer.motion["moving"].index("/ck/linear/body")
     for frame, step in zip(played, steps, strict=True):
         np.testing.assert_allclose(frame[body].T[:3, 3], panda.fk(step.theta)[:3, 3], atol=1e-9)
     np.testing.assert_array_equal(panel.scene.pose(), before)
@@ -101,7 +101,7 @@ def test_every_arm(name):
     robot = robots.all()[name]
     panel = view.explore_jacobians(robot)
     try:
-        assert robot.within_limits(panel.scene.theta())
+        assert robot.within_limits(panel.scene.robots["robot"].theta)
         assert "Newton: " in panel.line.value and "Error" not in panel.line.value
     finally:
         panel.close()

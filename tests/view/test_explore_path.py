@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from coursekit import path, robots, view
-from coursekit.view import text
+from coursekit.view import png, text
 
 
 @pytest.fixture(scope="module")
@@ -130,7 +130,7 @@ def test_what_cannot_be_followed_is_refused():
 def test_pictures_and_no_widget_left():
     before = len(ipywidgets.widgets.widget._instances)
     panel = view.explore_path()
-    assert panel.scene.png(320, 240).startswith(b"\x89PNG")
+    assert png(panel.scene, 320, 240).startswith(b"\x89PNG")
     assert panel.below[0].png.startswith(b"\x89PNG")
     assert repr(panel).startswith("Explorer of the path: ABB IRB 1200-5/0.9: joints (-28.1, 49.7, 47.8, 0.0")
     panel.close()

@@ -40,7 +40,7 @@ def test_sliding_q_moves_the_point_and_not_the_screw(panel):
 
 def test_only_the_chosen_joint_turns(panel):
     panel.set(joint="joint 2", turn=-np.pi / 2)
-    assert np.allclose(panel.scene.theta(), [0, -np.pi / 2, 0, 0, 0, 0])
+    assert np.allclose(panel.scene.robots["robot"].theta, [0, -np.pi / 2, 0, 0, 0, 0])
     assert text.millimetres(KR6.fk([0, -np.pi / 2, 0, 0, 0, 0])[:3, 3]) in panel.line.value
 
 

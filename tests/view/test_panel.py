@@ -25,7 +25,7 @@ def small_panel(**more):
 
     def update(values):
         calls.append(values)
-        scene.set_theta("robot", values["theta"])
+        scene.robots["robot"].theta = values["theta"]
 
     panel = Panel(
         "test", scene, [joint_sliders(kr6), Toggle("on")], update, lambda values: str(values["on"]), **more
@@ -48,7 +48,7 @@ def test_a_slider_moved_in_the_page_moves_the_robot(made):
     as_the_browser(panel._controls["theta"].sliders[0], value=30.0, live=True)
     theta = panel.values["theta"]
     assert theta[0] == pytest.approx(np.pi / 6, abs=1e-15)
-    np.testing.assert_array_equal(panel.scene.theta(), theta)
+    np.testing.assert_array_equal(panel.scene.robots["robot"].theta, theta)
     poses = np.frombuffer(panel.viewer.pose).reshape(-1, 4, 4).transpose(0, 2, 1)
     np.testing.assert_array_equal(poses, robots.kuka_kr6().displacements(theta))
 
@@ -105,7 +105,7 @@ def test_an_action_and_a_table_and_a_plot(made):
 
     plot = Plot(draw, "An empty plot.", on_click=lambda x, y: clicked.append((x, y)))
     table = Table("rows", lambda values: (["x"], [[f"{values['x']:.2f}"]]), selectable=True)
-    go = Action("go", act=lambda panel: panel.set(x=0.5))
+    go = Action("go", act=lambda: panel.set(x=0.5))
     panel = made(Panel("all", Scene(), [Slider("x"), go], below=[plot, table]))
     assert table.rows == [["0.00"]] and plot.png.startswith(b"\x89PNG")
 
@@ -140,15 +140,39 @@ def test_an_action_can_play_a_motion_and_reset_ends_it(made):
     scene = Scene()
     scene.robot(kr6)
     thetas = np.linspace(kr6.home, kr6.home + 0.5, 11)
-    go = Action("go", act=lambda panel: panel.play_theta(thetas))
+    go = Action("go", act=lambda: panel.play(thetas))
     panel = made(Panel("motion", scene, [go, Toggle("on")]))
     panel._message(go, {"type": "press"}, [])
     assert panel.viewer.motion["frames"] == 11 and panel.viewer.frame == 0
-    np.testing.assert_array_equal(scene.theta(), kr6.home)
+    np.testing.assert_array_equal(scene.robots["robot"].theta, kr6.home)
     as_the_browser(panel._controls["on"], value=True)
-    assert panel.viewer.frame == 0
+    assert panel.viewer.frame == 0, "a switch does not end it"
     panel.reset()
-    assert panel.viewer.frame == -1
+    assert panel.viewer.frame == -1 and panel.viewer.motion == {}
+
+
+def the_page_shows(panel, frame, playing=False):
+    """What the page says while it plays, or where it rests."""
+    panel.viewer.set_state({"frame": frame, "playing": playing})
+
+
+def test_what_a_motion_shows_is_what_everything_shows(made):
+    panel = made(small_panel())
+    kr6, thetas = robots.kuka_kr6(), np.linspace([0, -1, 1, 0, 0, 0], [1, -1, 1, 0, 9, 0], 11)
+    panel.play(thetas)
+    for frame, playing in ((3, True), (10, False)):
+        the_page_shows(panel, frame, playing)
+        np.testing.assert_array_equal(panel.values["theta"], thetas[frame])  # beyond a limit, too
+        np.testing.assert_array_equal(panel.scene.robots["robot"].theta, thetas[frame])
+        np.testing.assert_array_equal(panel.calls[-1]["theta"], thetas[frame])
+        assert panel.viewer.frame == frame
+        pose = np.frombuffer(panel.viewer.pose).reshape(-1, 4, 4).transpose(0, 2, 1)
+        np.testing.assert_array_equal(pose, kr6.displacements(thetas[frame]))
+    as_the_browser(panel._controls["theta"].sliders[0], value=30.0)
+    np.testing.assert_array_equal(panel.values["theta"], [np.pi / 6, *thetas[10, 1:]])
+    assert panel.viewer.motion == {}
+    the_page_shows(panel, 4)  # said before the page knew
+    assert panel.viewer.frame == -1 and panel.values["theta"][0] == np.pi / 6
 
 
 def test_an_error_of_the_explorer_is_shown(made):
@@ -191,7 +215,13 @@ def test_reset_goes_back_and_keeps_the_chosen_robot(made):
 def test_every_arm_can_be_explored_and_its_conventions_agree(made, name):
     robot = robots.all()[name]
     panel = made(view.explore(robot))
-    panel.set(theta=robot.home * 0.5, standard=True, modified=True, screws=True, skeleton=True)
+    panel.set(
+        theta=np.clip(robot.home * 0.5, robot.q_min, robot.q_max),
+        standard=True,
+        modified=True,
+        screws=True,
+        skeleton=True,
+    )
     if robot.standard_dh is None and robot.modified_dh is None:
         assert "no DH table" in panel.line.value
     else:
@@ -226,7 +256,7 @@ def test_every_widget_has_a_stable_repr():
         (lambda: joint_sliders(robots.kuka_kr6()).put([1, 2]), r"'theta' takes 6 numbers, got shape \(2,\)"),
         (
             lambda: Panel("p", Scene(), [Slider("x"), Slider("x")]),
-            "panel 'p': two controls have the same name",
+            "panel 'p': two controls are called 'x'",
         ),
         (lambda: Panel("p", Scene(), [Slider("x")]).set(y=1), "panel 'p' has no control 'y'; it has: x"),
     ],
@@ -234,3 +264,104 @@ def test_every_widget_has_a_stable_repr():
 def test_mistakes_are_named(call, message):
     with pytest.raises(ValueError, match=message):
         call()
+
+
+def test_values_are_read_once_a_change(made, monkeypatch):
+    panel, read = made(small_panel()), []
+    original = Sliders.get
+    monkeypatch.setattr(Sliders, "get", lambda self: read.append(self.name) or original(self))
+    as_the_browser(panel._controls["theta"].sliders[0], value=30.0)
+    assert read == ["theta"]
+
+
+# -- what went wrong once
+
+
+def test_a_set_that_is_refused_leaves_everything_where_it_was(made):
+    kr6 = robots.kuka_kr6()
+    panel = made(small_panel())
+    panel.set(theta=[0.1, -1, 1, 0, 0.2, 0], on=True)
+    before = panel.values["theta"]
+    for wrong in ({"theta": [0.3, -1, 1, 0, 99, 0]}, {"on": False, "theta": [1, 2]}):
+        with pytest.raises(ValueError, match=r"'theta5' goes over|takes 6 numbers"):
+            panel.set(**wrong)
+        np.testing.assert_array_equal(panel.values["theta"], before)
+        np.testing.assert_array_equal(panel.scene.robots["robot"].theta, before)
+        assert panel.values["on"] is True
+    poses = np.frombuffer(panel.viewer.pose).reshape(-1, 4, 4).transpose(0, 2, 1)
+    np.testing.assert_array_equal(poses, kr6.displacements(before))
+
+
+def test_a_set_that_the_explorer_refuses_is_taken_back(made):
+    def update(values):
+        if values["x"] > 0.5:
+            raise ValueError("too far")
+
+    panel = made(Panel("error", Scene(), [Slider("x", 0.2)], update))
+    with pytest.raises(ValueError, match="too far"):
+        panel.set(x=0.9)
+    assert panel.values["x"] == 0.2
+    assert panel.line.value == "ValueError: too far"
+
+
+def test_a_choice_takes_what_it_gives():
+    arms = robots.all()
+    choice = Choice("robot", arms)
+    choice.put("ur5")
+    choice.put(choice.get())
+    assert choice.value == "ur5"
+    choice.put(arms["puma560"])
+    assert choice.get() is arms["puma560"]
+    vectors = Choice("v", {"ones": np.ones(3), "zeros": np.zeros(3)})  # == of arrays is no truth value
+    vectors.put(vectors.meaning["zeros"])
+    assert vectors.value == "zeros"
+    with pytest.raises(ValueError, match="choice 'v' has no 7; it has: ones, zeros"):
+        vectors.put(7)
+
+
+def test_a_table_named_like_a_control_is_refused():
+    table = Table("x", lambda values: ([], []))
+    with pytest.raises(ValueError, match="panel 'p': two controls are called 'x'"):
+        Panel("p", Scene(), [Slider("x")], below=[table])
+
+
+def test_a_stock_widget_stands_among_the_controls(made):
+    button = ipywidgets.Button(description="mine")
+    panel = made(Panel("p", Scene(), [Slider("x"), button], below=[ipywidgets.HTML("<b>below</b>")]))
+    assert panel.values == {"x": 0.0}
+    column = panel.children[0].children[0]
+    assert button in column.children
+
+
+def test_two_panels_of_one_cell_live_and_both_go_when_it_runs_again(made, monkeypatch):
+    from coursekit.view import cells
+
+    run = ["cell", "first run"]
+    monkeypatch.setattr(cells, "running", lambda: tuple(run))
+    one, other = made(small_panel()), made(small_panel())
+    assert one.scene is not None and other.scene is not None
+    run[1] = "second run"
+    third = made(small_panel())
+    assert (one.scene, other.scene) == (None, None) and third.scene is not None
+
+
+def test_a_picture_is_drawn_between_two_changes_and_never_during_one(made, monkeypatch):
+    import threading
+
+    from coursekit.view import viewer as module
+
+    panel, drawn = made(small_panel()), threading.Event()
+    monkeypatch.setattr(module, "png", lambda *_: drawn.set() or b"")
+    with panel._lock:
+        asking = threading.Thread(target=panel.viewer._answer, args=(panel.viewer, {"type": "need_png"}, []))
+        asking.start()
+        assert not drawn.wait(0.2)
+    asking.join()
+    assert drawn.is_set()
+
+
+def test_every_change_is_answered(made):
+    panel = made(small_panel())
+    before = panel.viewer.answers
+    as_the_browser(panel._controls["on"], value=False, touched=1)  # nothing changed, and yet somebody asked
+    assert panel.viewer.answers > before

@@ -8,13 +8,14 @@ from PIL import Image
 
 from coursekit import robots
 from coursekit.view.camera import FOV
+from coursekit.view.picture import png
 from coursekit.view.scene import Scene
 
 CATALOGUE = robots.all()
 
 
 def pixels(scene, width=480, height=320, **more):
-    image = Image.open(io.BytesIO(scene.png(width, height, **more)))
+    image = Image.open(io.BytesIO(png(scene, width, height, **more)))
     return np.asarray(image.convert("RGB"), int)
 
 
@@ -38,13 +39,13 @@ def project(scene, p, width, height):
 def test_every_robot_is_in_its_picture(name):
     scene = Scene()
     scene.robot(CATALOGUE[name])
-    png = scene.png(640, 430)
-    assert png.startswith(b"\x89PNG")
-    assert 5_000 < len(png) < 40_000
-    image = Image.open(io.BytesIO(png))
+    drawn = png(scene, 640, 430)
+    assert drawn.startswith(b"\x89PNG")
+    assert 5_000 < len(drawn) < 40_000
+    image = Image.open(io.BytesIO(drawn))
     assert image.size == (640, 430)
     body = orange(np.asarray(image.convert("RGB"), int))
-    assert 0.01 < body.mean() < 0.3
+    assert 0.004 < body.mean() < 0.3  # the Stanford arm is a thin one
     border = np.concatenate([body[0], body[-1], body[:, 0], body[:, -1]])
     assert not border.any()
 
@@ -55,10 +56,10 @@ def test_the_same_scene_gives_the_same_bytes():
         scene = Scene()
         scene.robot(robots.planar_2r())
         scene.frame("/ck/world", letter="0")
-        pictures.append(scene.png(320, 200))
+        pictures.append(png(scene, 320, 200))
     assert pictures[0] == pictures[1]
-    scene.set_theta("robot", [0.1, 0.2])
-    assert scene.png(320, 200) != pictures[0]
+    scene.robots["robot"].theta = [0.1, 0.2]
+    assert png(scene, 320, 200) != pictures[0]
 
 
 @pytest.mark.parametrize("p", [[0.2, -0.1, 0.5], [-0.3, 0.2, 0.1], [0, 0, 0.8]])
@@ -87,7 +88,7 @@ def test_hidden_things_are_not_drawn_and_ghosts_are_pale():
     scene = Scene()
     scene.robot(robots.kuka_kr6())
     assert orange(pixels(scene)).any()
-    scene.look("robot", solid=False)
+    scene.robots["robot"].look(solid=False)
     assert not orange(pixels(scene)).any()
     empty = pixels(scene)
     scene.robot(robots.kuka_kr6(), [0.5, -1, 1, 0, 0, 0], name="goal", style="ghost")
@@ -134,9 +135,7 @@ def test_a_robot_throws_a_shadow_on_the_floor():
 
 
 def test_the_view_can_be_chosen():
-    from coursekit.view.picture import draw
-
     scene = Scene()
     scene.robot(robots.kuka_kr6())
-    views = {name: draw(scene, 240, 160, name) for name in scene.views}
+    views = {name: png(scene, 240, 160, name) for name in scene.views}
     assert len(set(views.values())) == 4

@@ -5,7 +5,7 @@ import pytest
 import umsgpack
 
 from coursekit import Robot, robots
-from coursekit.view import paint, shapes, stage
+from coursekit.view import meshcat, paint, shapes, stage
 from coursekit.view.scene import Scene
 
 CATALOGUE = robots.all()
@@ -19,7 +19,7 @@ def scene_of(robot, **more):
 
 
 def size_of(scene):
-    return sum(len(umsgpack.packb(command)) for command in scene.commands.values())
+    return sum(len(umsgpack.packb(command)) for command in meshcat.commands(scene).values())
 
 
 # --- robots ---
@@ -30,7 +30,7 @@ def test_the_tool_hangs_at_the_end_of_the_chain(robot):
     scene = scene_of(robot)
     for seed in range(3):
         theta = np.random.default_rng(seed).uniform(-1, 1, robot.n)
-        scene.set_theta("robot", theta)
+        scene.robots["robot"].theta = theta
         last = scene.worlds([f"/ck/robot/{robot.n}/tool"]).popitem()[1]
         np.testing.assert_allclose(last @ robot.M, robot.fk(theta), atol=1e-12)
         np.testing.assert_array_equal(scene.pose(), robot.displacements(theta))
@@ -39,15 +39,15 @@ def test_the_tool_hangs_at_the_end_of_the_chain(robot):
 
 def test_a_robot_stands_at_home_unless_told_otherwise():
     robot = robots.kuka_kr6()
-    np.testing.assert_array_equal(scene_of(robot).theta(), robot.home)
-    np.testing.assert_array_equal(scene_of(robot, theta=np.ones(6)).theta("robot"), np.ones(6))
+    np.testing.assert_array_equal(scene_of(robot).robots["robot"].theta, robot.home)
+    np.testing.assert_array_equal(scene_of(robot, theta=np.ones(6)).robots["robot"].theta, np.ones(6))
 
 
 @every_robot
 def test_what_is_sent_is_plain_and_small(robot):
     scene = scene_of(robot)
-    scene.axes()
-    for key, command in scene.commands.items():
+    scene.robots["robot"].show_axes()
+    for key, command in meshcat.commands(scene).items():
         assert umsgpack.unpackb(umsgpack.packb(command)) == command, key  # refuses numpy scalars
         assert key.split("#")[0] == command["path"]
     assert size_of(scene) < 400_000
@@ -56,23 +56,23 @@ def test_what_is_sent_is_plain_and_small(robot):
 def test_only_what_changed_is_a_new_command():
     scene = scene_of(robots.ur5())
     scene.frame("/ck/target", np.eye(4), "t")
-    before = dict(scene.commands)
+    before = dict(meshcat.commands(scene))
     T = np.eye(4)
     T[0, 3] = 0.5
     scene.frame("/ck/target", T, "t")
-    scene.set_theta("robot", np.ones(6))
+    scene.robots["robot"].theta = np.ones(6)
     scene.arrow("/ck/arrow", [0, 0, 0], [1, 0, 0])
-    changed = {key for key, command in scene.commands.items() if before.get(key) is not command}
+    changed = {key for key, command in meshcat.commands(scene).items() if before.get(key) != command}
     assert changed == {"/ck/target#transform", "/ck/arrow"}
 
 
 def test_solids_cast_shadows_and_signs_do_not():
     scene = scene_of(robots.kuka_kr6())
     scene.frame("/ck/world", letter="0")
-    solid = scene.commands["/ck/robot/2/solid"]["object"]["object"]
+    solid = meshcat.commands(scene)["/ck/robot/2/solid"]["object"]["object"]
     assert solid["type"] == "Group"
     assert all(child["castShadow"] and child["receiveShadow"] for child in solid["children"])
-    sign = scene.commands["/ck/world"]["object"]["object"]["children"]
+    sign = meshcat.commands(scene)["/ck/world"]["object"]["object"]["children"]
     assert not any(child["castShadow"] for child in sign)
     assert {child["renderOrder"] for child in sign} == {0, 30}  # the arrows, and how they shine through
 
@@ -83,7 +83,7 @@ def test_the_skeleton_is_one_toggle_away(style):
     shown = {kind: scene.visible(f"/ck/robot/3/{kind}") for kind in ("solid", "skeleton")}
     assert shown == {"solid": style == "solid", "skeleton": style == "skeleton"}
     assert scene.parts["/ck/robot/3/skeleton"]
-    scene.look("robot", solid=False, skeleton=True)
+    scene.robots["robot"].look(solid=False, skeleton=True)
     assert scene.visible("/ck/robot/3/skeleton")
     assert not scene.visible("/ck/robot/3/solid")
 
@@ -118,9 +118,11 @@ def test_a_ghost_without_a_solid_brings_its_own_hidden_shapes():
 def test_errors_name_what_was_expected():
     scene = scene_of(robots.kuka_kr6())
     with pytest.raises(ValueError, match=r"KUKA KR6 R900 sixx has 6 joints.*\(5,\)"):
-        scene.set_theta("robot", np.zeros(5))
-    with pytest.raises(ValueError, match="no robot is called 'arm'; there are: robot"):
-        scene.set_theta("arm", np.zeros(6))
+        scene.robots["robot"].theta = np.zeros(5)
+    with pytest.raises(ValueError, match="nothing is drawn at '/ck/arm'; there are: /ck/robot/0/solid, "):
+        scene["/ck/arm"].show(False)
+    with pytest.raises(IndexError, match="KUKA KR6 R900 sixx has links 0 to 6, got 7"):
+        scene.robots["robot"].link(7)
     with pytest.raises(ValueError, match="one of solid, ghost, skeleton, not 'glass'"):
         scene.robot(robots.ur5(), style="glass")
     with pytest.raises(ValueError, match='starts with "/ck/"'):
@@ -142,8 +144,8 @@ def placed(scene, path):
 def test_screw_axes_lie_on_the_screws_and_move_with_the_links():
     robot = robots.kuka_kr6()
     scene = scene_of(robot, theta=np.linspace(-0.7, 0.8, 6))
-    scene.axes()
-    now = robot.jacobian_space(scene.theta())  # the screws where they are now
+    scene.robots["robot"].show_axes()
+    now = robot.jacobian_space(scene.robots["robot"].theta)  # the screws where they are now
     for k, S in enumerate(now.T, 1):
         path = f"/ck/robot/{k}/axis"
         arrow = scene.parts[path][0]
@@ -153,7 +155,7 @@ def test_screw_axes_lie_on_the_screws_and_move_with_the_links():
     assert [label["text"] for label in scene.labels if label["cls"] == "axis"] == [
         f"S{k}" for k in range(1, 7)
     ]
-    scene.axes(shown=False)
+    scene.robots["robot"].show_axes(shown=False)
     assert not [label for label in scene.labels if label["cls"] == "axis"]
 
 
@@ -193,9 +195,9 @@ def test_an_ellipsoid_moves_with_the_pose_and_is_sent_once():
     scene = Scene()
     scene.robot(robots.planar_2r())
     scene.ellipsoid("/ck/e", np.eye(3), np.array([0.3, 0.2, 0.1]), np.zeros(3))
-    sent, first = dict(scene.commands), scene.pose()
+    sent, first = dict(meshcat.commands(scene)), scene.pose()
     scene.ellipsoid("/ck/e", np.eye(3), np.array([0.1, 0.2, 0.3]), np.ones(3))
-    assert scene.commands == sent
+    assert meshcat.commands(scene) == sent
     assert scene.moving[2:] == ["/ck/e/body", "/ck/e/axis1", "/ck/e/axis2", "/ck/e/axis3"]
     np.testing.assert_array_equal(scene.pose()[:2], first[:2])
     body = [[0.1, 0, 0, 1], [0, 0.2, 0, 1], [0, 0, 0.3, 1], [0, 0, 0, 1]]
@@ -227,16 +229,16 @@ def test_lines_curves_normals_and_points_are_where_they_belong():
     assert placed(scene, "/ck/n")[:, 2].max() == pytest.approx(0.6)
     np.testing.assert_allclose(placed(scene, "/ck/p").mean(axis=0), [1, 2, 3], atol=1e-9)
     np.testing.assert_allclose(placed(scene, "/ck/f")[:, 2], 1, atol=0.01)
-    assert len(umsgpack.packb(scene.commands["/ck/c"])) < 120_000  # a very fine curve is thinned out
+    assert len(umsgpack.packb(meshcat.commands(scene)["/ck/c"])) < 120_000  # a very fine curve is thinned out
 
 
 def test_hidden_drawings_have_no_labels():
     scene = Scene()
     scene.point("/ck/group/p", [0, 0, 0], "p")
     assert "p" in [label["text"] for label in scene.labels]
-    scene.show("/ck/group", False)
+    scene["/ck/group"].show(False)
     assert "p" not in [label["text"] for label in scene.labels]
-    scene.show("/ck/group", True)
+    scene["/ck/group"].show(True)
     assert "p" in [label["text"] for label in scene.labels]
 
 
@@ -245,9 +247,10 @@ def test_removing_takes_everything_below_and_nothing_beside():
     scene.point("/ck/a", [0, 0, 0], "a")
     scene.point("/ck/a/b", [0, 0, 0], "b")
     scene.point("/ck/ab", [0, 0, 0], "ab")
-    scene.show("/ck/a/b", False)
+    scene["/ck/a/b"].show(False)
     scene.remove("/ck/a")
-    assert not [key for key in scene.commands if key.startswith("/ck/a/") or key.split("#")[0] == "/ck/a"]
+    paths = {key.split("#")[0] for key in meshcat.commands(scene)}
+    assert not [path for path in paths if path == "/ck/a" or path.startswith("/ck/a/")]
     assert [label["text"] for label in scene.labels if label["cls"] == "note"] == ["ab"]
 
 
@@ -292,7 +295,7 @@ def test_views_look_where_their_names_say():
 
 
 def test_the_stage_hides_what_meshcat_brings_and_lights_from_above():
-    commands = Scene().commands
+    commands = meshcat.commands(Scene())
     hidden = [c["path"] for c in commands.values() if c["type"] == "set_property"]
     assert {"/Grid", "/Axes", "/Background", "/Lights/SpotLight", "/Lights/AmbientLight"} <= set(hidden)
     for name in ("key", "sky"):
@@ -308,9 +311,9 @@ def test_grid_lines_are_round_numbers(size):
 
 
 def test_colors_are_sent_as_linear_light():
-    assert paint.linear(0x000000) == 0
-    assert paint.linear(0xFFFFFF) == 0xFFFFFF
-    assert paint.linear(0xF07A2B) == 0xDE3206  # ((c + 0.055) / 1.055)^2.4 by hand
+    assert meshcat.linear(0x000000) == 0
+    assert meshcat.linear(0xFFFFFF) == 0xFFFFFF
+    assert meshcat.linear(0xF07A2B) == 0xDE3206  # ((c + 0.055) / 1.055)^2.4 by hand
 
 
 def test_a_turned_part_is_the_same_in_three_js():
@@ -318,7 +321,7 @@ def test_a_turned_part_is_the_same_in_three_js():
     part = paint.Part(
         shapes.bevelled(0.3, -0.1, 0.5, 0.05), "body", shapes.frame_along([1, 2, 3], [0.4, 0.5, 0.6])
     )
-    sent = paint.group([part])
+    sent = meshcat.group([part])
     (geometry,), (child,) = sent["geometries"], sent["object"]["children"]
     phi = np.linspace(0, 2 * np.pi, geometry["segments"] + 1)
     points = [

@@ -5,7 +5,11 @@ import re
 from pathlib import Path
 
 import nbformat
+import pytest
 from nbconvert import HTMLExporter
+from nbconvert.exporters import get_exporter
+
+from coursekit.view import reopened
 
 NOTEBOOK = Path(__file__).resolve().parents[2] / "notebooks" / "01_dh_vs_poe.ipynb"
 
@@ -23,3 +27,28 @@ def test_html_of_a_notebook_shows_the_picture_of_its_explorer():
     assert pictures == [base64.b64decode(stored.data["image/png"])]
     assert pictures[0].startswith(b"\x89PNG") and len(pictures[0]) > 5000
     assert "vnd.jupyter.widget" not in page  # a widget without a kernel would be an empty box
+
+
+def test_nbconvert_makes_a_page_in_which_the_explorer_moves():
+    notebook = nbformat.read(NOTEBOOK, as_version=4)
+    notebook.cells = [cell for cell in notebook.cells if cell.source.startswith("view.explore")]
+    page, _ = get_exporter("coursekit")().from_notebook_node(notebook)
+    (inner,) = re.findall(r'srcdoc="([^"]*)"', page)
+    assert "KUKA KR6 R900 sixx: joints (0.0, -90.0, 90.0" in inner and "No kernel runs here" in page
+
+
+@pytest.mark.parametrize("path", sorted(NOTEBOOK.parent.glob("*.ipynb")), ids=lambda path: path.stem)
+def test_the_stored_line_of_every_explorer_gives_its_page(path):
+    cells = nbformat.read(path, as_version=4).cells
+    (cell,) = [cell for cell in cells if cell.source.startswith("view.explore")]
+    assert reopened.page_of(cell.outputs[0].data["text/plain"]).startswith("<!DOCTYPE html>")
+
+
+def test_nothing_else_gives_a_page():
+    for line in (
+        "",
+        "42",
+        "Explorer of screws: my arm: joints (0.0) deg",
+        "Explorer of cakes: KUKA KR6 R900 sixx: joints ()",
+    ):
+        assert reopened.page_of(line) is None

@@ -9,8 +9,11 @@ import pytest
 import umsgpack
 
 from coursekit import robots
+from coursekit.view import meshcat
+from coursekit.view.meshcat import bundle, column_major
+from coursekit.view.page import to_html
 from coursekit.view.scene import Scene
-from coursekit.view.viewer import Viewer, bundle, column_major
+from coursekit.view.viewer import Viewer
 
 
 @pytest.fixture
@@ -36,8 +39,8 @@ def keys_sent(viewer):
 
 def test_the_state_holds_every_command_of_the_scene(viewer, scene):
     state = viewer.get_state()
-    assert list(state["commands"]) == list(scene.commands)
-    for key, command in scene.commands.items():
+    assert list(state["commands"]) == list(meshcat.commands(scene))
+    for key, command in meshcat.commands(scene).items():
         assert umsgpack.unpackb(state["commands"][key])["path"] == command["path"]
 
 
@@ -56,7 +59,7 @@ def test_a_pose_is_sixteen_float64_per_path_column_by_column(viewer, scene):
 
 def test_moving_the_robot_sends_a_pose_and_no_command(viewer, scene):
     theta = np.array([0.1, -0.2, 0.3, -0.4, 0.5, -0.6])
-    scene.set_theta("robot", theta)
+    scene.robots["robot"].theta = theta
     viewer.sync()
     assert viewer.sent == []
     poses = np.frombuffer(viewer.pose).reshape(-1, 4, 4).transpose(0, 2, 1)
@@ -70,7 +73,7 @@ def test_sync_sends_only_what_changed(viewer, scene):
     viewer.sent.clear()
     viewer.sync()
     assert viewer.sent == []
-    scene.show("/ck/here", False)
+    scene["/ck/here"].show(False)
     viewer.sync()
     assert [umsgpack.unpackb(data)["value"] for _, buffers in viewer.sent for data in buffers] == [False]
 
@@ -81,7 +84,7 @@ def test_removing_a_drawing_deletes_its_path_and_sends_again_what_stays_below(vi
     scene.point("/ck/ab", [0, 0, 0])
     viewer.sync()
     viewer.sent.clear()
-    del scene.commands["/ck/a"]
+    del scene.parts["/ck/a"]
     viewer.sync()
     ((content, _),) = viewer.sent
     assert content["gone"] == ["/ck/a"] and content["delete"] == ["/ck/a"]
@@ -102,11 +105,19 @@ def test_a_motion_ends_exactly_and_a_new_pose_ends_the_motion(viewer, scene):
     scene.point("/ck/here", [0, 0, 0])
     viewer.sync()
     assert viewer.frame == 0, "something drawn beside it does not stop the motion"
-    scene.set_theta("robot", thetas[7])
+    scene.robots["robot"].theta = thetas[7]
+    viewer.sync(frame=7)
+    assert viewer.motion, "the scene shows what the motion does"
+    scene.robots["robot"].theta = thetas[8]
     viewer.sync()
-    assert viewer.frame == -1
-    viewer.stop()
-    assert viewer.motion == {}
+    assert (viewer.frame, viewer.motion, viewer.motion_poses) == (-1, {}, b"")
+
+
+def test_another_robot_ends_the_motion(viewer, scene):
+    viewer.play(robots.kuka_kr6().displacements(np.linspace(np.zeros(6), np.ones(6), 11)))
+    scene.robot(robots.puma560())  # as many links, but others
+    viewer.sync()
+    assert (viewer.frame, viewer.motion) == (-1, {})
 
 
 @pytest.mark.parametrize(
@@ -130,13 +141,21 @@ def test_wrong_shapes_are_named(viewer, call, message):
 
 
 def test_someone_who_knows_meshcat_can_draw_too(viewer):
-    del viewer.send  # the real one
     box = viewer.meshcat["mine"]
     import meshcat.geometry  # after the viewer has imported meshcat, and its warning with it
 
     box.set_object(meshcat.geometry.Box([0.1, 0.2, 0.3]))
     packed = [data for key, data in viewer.get_state()["commands"].items() if key.startswith("meshcat:")]
     assert [umsgpack.unpackb(data)["path"] for data in packed] == ["/meshcat/mine"]
+    box.set_transform(np.diag([1.0, 1, 1, 1]))
+    box.set_property("visible", False)
+    box.delete()
+    box.set_object(meshcat.geometry.Box([0.1, 0.2, 0.3]))  # a late view gets them in this order
+    kinds = [key.split(":")[2] for key in viewer.get_state()["commands"] if key.startswith("meshcat:")]
+    assert kinds == ["set_transform", "set_property", "delete", "set_object"]
+    for refused in (box.url, box.jupyter_cell, box.static_html, box.get_image, box.open):
+        with pytest.raises(RuntimeError, match=r"show the panel|view\.to_html|view\.png"):
+            refused()
 
 
 def test_the_line_of_text_is_stable(viewer):
@@ -148,7 +167,7 @@ def test_the_line_of_text_is_stable(viewer):
 
 
 def test_a_page_of_its_own_needs_no_network(viewer):
-    page = viewer.to_html()
+    page = to_html(viewer)
     assert len(page) < 1_000_000
     assert "http://" not in page.replace("http://www.w3.org", "") and "https://" not in page
     assert "src=" not in page and "KUKA KR6 R900 sixx" in page

@@ -62,3 +62,23 @@ def mm(distance):
 def deg(angle):
     """ "34 deg" of an angle in degrees."""
     return f"{angle:.3g} deg"
+
+
+def random_rotation(rng):
+    """Any rotation."""
+    x, y = np.linalg.qr(rng.normal(size=(3, 3)))[0].T[:2]
+    return np.column_stack([x, y, np.cross(x, y)])
+
+
+def random_pose(rng):
+    """Any rotation, and a position within half a metre."""
+    T = np.eye(4)
+    T[:3, :3], T[:3, 3] = random_rotation(rng), rng.uniform(-0.5, 0.5, 3)
+    return T
+
+
+def whole_pose(turned, position):
+    """A pose in whole numbers; `turned` is a rotation by quarter turns."""
+    T = np.eye(4, dtype=int)
+    T[:3, :3], T[:3, 3] = np.round(turned), position
+    return T

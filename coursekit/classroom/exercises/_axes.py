@@ -10,9 +10,9 @@ import numpy as np
 NEAR = 1e-6  # less than this is rounding: metres, radians
 
 
-def mm(length: float) -> str:
+def mm(length: float | np.floating) -> str:
     """ "83 mm", "0.4 mm", of a length in metres: as much as one can picture."""
-    length = 1000 * abs(float(length)) if abs(length) > NEAR else 0.0
+    length = 1000 * abs(float(length)) if abs(float(length)) > NEAR else 0.0
     if length == 0:
         return "0 mm"
     return f"{length:.0f} mm" if length >= 10 else f"{length:.2g} mm"

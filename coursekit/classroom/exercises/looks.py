@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .nb03 import _turn, _wrist_in_plane
+from ._arm import turn, wrist_in_plane
 
 
 def pose(args, T):
@@ -37,13 +37,13 @@ def from_quaternion(args, q):
 def from_zyx(args, angles):
     """Turns about z, y and x, one after the other."""
     yaw, pitch, roll = angles
-    return rotation(_turn(2, yaw) @ _turn(1, pitch) @ _turn(0, roll))
+    return rotation(turn(2, yaw) @ turn(1, pitch) @ turn(0, roll))
 
 
 def from_wrist(args, rows):
     """Where the first row turns the tool."""
     t4, t5, t6 = rows[0]
-    return rotation(_turn(0, -t4) @ _turn(1, t5) @ _turn(0, -t6))
+    return rotation(turn(0, -t4) @ turn(1, t5) @ turn(0, -t6))
 
 
 def point(args, p):
@@ -74,7 +74,7 @@ def plane_arm(t2, t3, lengths):
     a1, d1, a2, a3, _ = lengths
     elbow = np.array([a1 + a2 * np.cos(t2), d1 - a2 * np.sin(t2)])
     kink = elbow + a3 * np.array([np.sin(t2 + t3), np.cos(t2 + t3)])
-    out, up = _wrist_in_plane(t2, t3, lengths)
+    out, up = wrist_in_plane(t2, t3, lengths)
     flat = [[0, 0], [0, d1], [a1, d1], elbow, kink, [out, d1 + up]]
     return np.array([[x, 0, z] for x, z in flat])
 
@@ -88,8 +88,8 @@ def arm(args, rows):
     """The arm in the first solution, with its tool."""
     t1, t2, t3, t4, t5, t6 = rows[0]
     _, lengths, tool = args
-    chain = plane_arm(t2, t3, lengths) @ _turn(2, -t1).T
-    x = _turn(2, -t1) @ _turn(1, t2 + t3) @ _turn(0, -t4) @ _turn(1, t5) @ _turn(0, -t6)
+    chain = plane_arm(t2, t3, lengths) @ turn(2, -t1).T
+    x = turn(2, -t1) @ turn(1, t2 + t3) @ turn(0, -t4) @ turn(1, t5) @ turn(0, -t6)
     return {"chains": [np.vstack([chain, chain[-1] + tool * x[:, 0]])]}
 
 

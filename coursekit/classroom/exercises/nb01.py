@@ -6,6 +6,7 @@ import numpy as np
 
 from coursekit.classroom.exercise import POSE, Block, Edge, Exercise, Hint
 from coursekit.classroom.exercises import _nb01 as inputs
+from coursekit.classroom.exercises import looks
 from coursekit.classroom.exercises._axes import (
     NEAR,
     between,
@@ -177,6 +178,7 @@ FRAME = (
 EXERCISES = [
     Exercise(
         "dh_transform(a, alpha, d, theta)",
+        look=looks.pose,
         points=2,
         draw=inputs.dh_row,
         shape=(4, 4),
@@ -208,6 +210,7 @@ EXERCISES = [
     ),
     Exercise(
         "mdh_transform(a_prev, alpha_prev, d, theta)",
+        look=looks.pose,
         points=2,
         draw=inputs.dh_row,
         shape=(4, 4),
@@ -232,6 +235,7 @@ EXERCISES = [
     ),
     Exercise(
         "fk_dh(rows, theta, base, tool)",
+        look=looks.pose,
         points=3,
         draw=inputs.dh_arm,
         shape=(4, 4),
@@ -271,6 +275,7 @@ EXERCISES = [
     ),
     Exercise(
         "screw_exp(S, theta)",
+        look=looks.pose,
         points=3,
         draw=inputs.one_hinge,
         shape=(4, 4),
@@ -315,6 +320,7 @@ EXERCISES = [
     ),
     Exercise(
         "fk_poe(S, M, theta)",
+        look=looks.pose,
         points=2,
         draw=inputs.poe_arm,
         shape=(4, 4),
@@ -350,6 +356,7 @@ EXERCISES = [
     ),
     Exercise(
         "screws_from_dh(rows, base)",
+        look=looks.screws,
         points=3,
         draw=inputs.modified_arm,
         shape=(6, None),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from coursekit.classroom.exercise import Block, Edge, Exercise, Hint
+from coursekit.classroom.exercises import looks
 from coursekit.classroom.exercises._axes import (
     NEAR,
     between,
@@ -245,6 +246,7 @@ def _seen_from_where_it_is(f, args, B):
 EXERCISES = [
     Exercise(
         "home_pose(lengths)",
+        look=looks.pose,
         points=2,
         draw=_lengths,
         shape=(4, 4),
@@ -270,6 +272,7 @@ EXERCISES = [
     ),
     Exercise(
         "screw_axis(w, q)",
+        look=looks.screws,
         points=2,
         draw=_line,
         shape=(6,),
@@ -292,6 +295,7 @@ EXERCISES = [
     ),
     Exercise(
         "axis_of(S)",
+        look=looks.axis,
         points=3,
         draw=_one_screw,
         shape=((3,), (3,), ()),
@@ -339,6 +343,7 @@ EXERCISES = [
     ),
     Exercise(
         "body_screws(S, M)",
+        look=looks.screws,
         points=2,
         draw=_screws_and_home,
         shape=(6, None),

@@ -6,7 +6,16 @@ import numpy as np
 
 from coursekit.classroom.exercise import Block, Edge, Exercise, Hint
 from coursekit.classroom.exercises import _nb03 as _say
-from coursekit.classroom.exercises._arm import KR6, forward, turn, wrist, wrist_in_plane
+from coursekit.classroom.exercises import looks
+from coursekit.classroom.exercises._arm import (
+    KR6,
+    forward,
+    random_pose,
+    turn,
+    whole_pose,
+    wrist,
+    wrist_in_plane,
+)
 
 # What the student's functions may call from coursekit.kinematics.
 ALLOW = (
@@ -34,29 +43,11 @@ def _angles(rng, n):
     return np.pi / 2 * rng.integers(-2, 2, n) + rng.uniform(0.25, 1.3, n)
 
 
-def _rotation(rng):
-    x, y = np.linalg.qr(rng.normal(size=(3, 3)))[0].T[:2]
-    return np.column_stack([x, y, np.cross(x, y)])
-
-
-def _pose(rng):
-    T = np.eye(4)
-    T[:3, :3], T[:3, 3] = _rotation(rng), rng.uniform(-0.5, 0.5, 3)
-    return T
-
-
-def _whole_pose(turned, position):
-    """A pose in whole numbers; `turned` is a rotation by quarter turns."""
-    T = np.eye(4, dtype=int)
-    T[:3, :3], T[:3, 3] = np.round(turned), position
-    return T
-
-
 # ---- wrist_centre
 
 
 def _target(rng):
-    return _pose(rng), rng.uniform(0.05, 0.2)
+    return random_pose(rng), rng.uniform(0.05, 0.2)
 
 
 def _target_not_turned(rng):
@@ -70,7 +61,7 @@ def _the_report(rng):
 
 
 def _whole_target(rng):
-    return _whole_pose(turn(2, np.pi / 2) @ turn(0, np.pi / 2), rng.integers(1, 9, 3)), 2
+    return whole_pose(turn(2, np.pi / 2) @ turn(0, np.pi / 2), rng.integers(1, 9, 3)), 2
 
 
 # ---- subproblem1
@@ -171,7 +162,7 @@ def _the_report_in_reach(rng):
 
 def _whole_reachable(rng):
     R = turn(1, np.pi / 2) @ turn(0, np.pi / 2)  # the tool points down
-    return _whole_pose(R, np.array([3, -4, 5]) + R[:, 0]), [1, 2, 5, 3, 4], 1
+    return whole_pose(R, np.array([3, -4, 5]) + R[:, 0]), [1, 2, 5, 3, 4], 1
 
 
 # ---- newton_step
@@ -180,7 +171,7 @@ def _whole_reachable(rng):
 def _search(rng, n=6, turned=True, shifted=True):
     """A Jacobian of n joints, a pose and a target near it."""
     J = rng.normal(size=(6, n)) + 3 * np.eye(6, n)
-    here, change = _pose(rng), np.eye(4)
+    here, change = random_pose(rng), np.eye(4)
     if turned:
         change[:3, :3] = turn(0, rng.uniform(0.2, 0.9)) @ turn(1, rng.uniform(0.2, 0.9))
     if shifted:
@@ -197,8 +188,8 @@ def _singular_search(rng):
 
 def _whole_search(rng):
     J = np.diag(rng.integers(1, 4, 6)) + np.eye(6, k=1, dtype=int)
-    here = _whole_pose(turn(0, np.pi / 2), rng.integers(1, 5, 3))
-    return J, here, _whole_pose(turn(0, np.pi / 2) @ turn(2, np.pi / 2), rng.integers(1, 5, 3))
+    here = whole_pose(turn(0, np.pi / 2), rng.integers(1, 5, 3))
+    return J, here, whole_pose(turn(0, np.pi / 2) @ turn(2, np.pi / 2), rng.integers(1, 5, 3))
 
 
 # ---- laws
@@ -228,6 +219,7 @@ def _gives_T(_f, args, solutions):
 EXERCISES = [
     Exercise(
         "wrist_centre(T_sd, tool)",
+        look=looks.point,
         points=1,
         draw=_target,
         shape=(3,),
@@ -251,6 +243,7 @@ EXERCISES = [
     ),
     Exercise(
         "subproblem1(k, x, y)",
+        look=looks.turned,
         points=2,
         draw=lambda rng: _turn_by(rng, 0.25, 1.3),
         shape=(),
@@ -280,6 +273,7 @@ EXERCISES = [
     ),
     Exercise(
         "elbow_solutions(r, z, lengths)",
+        look=looks.elbows,
         points=3,
         draw=_triangle,
         shape=(2, 2),
@@ -312,6 +306,7 @@ EXERCISES = [
     ),
     Exercise(
         "wrist_angles(R)",
+        look=looks.from_wrist,
         points=2,
         draw=lambda rng: _bent(rng, (0.3, 1.3)),
         shape=(2, 3),
@@ -323,7 +318,7 @@ EXERCISES = [
             Edge("where R[0, 2] is negative", lambda rng: _bent(rng, (0.3, 1.3), out6=-1), 2),
             Edge(
                 "for whole numbers",
-                lambda rng: (_whole_pose(wrist(np.pi / 2 * np.array([0, 1, 1])), 0)[:3, :3],),
+                lambda rng: (whole_pose(wrist(np.pi / 2 * np.array([0, 1, 1])), 0)[:3, :3],),
             ),
         ),
         usual="where R[0, 0] > 0, R[2, 0] < 0 and R[0, 2] > 0",
@@ -344,6 +339,7 @@ EXERCISES = [
     ),
     Exercise(
         "all_solutions(T_sd, lengths, tool)",
+        look=looks.arm,
         points=4,
         draw=_reachable,
         shape=(8, 6),

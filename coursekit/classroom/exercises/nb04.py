@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from coursekit.classroom.exercise import Block, Edge, Exercise, Hint
+from coursekit.classroom.exercises import looks
 from coursekit.classroom.exercises._arm import KR6, deg, mm, wrist_in_plane
 
 # What the student's functions may call from coursekit.kinematics: what they wrote before. numpy is enough.
@@ -242,6 +243,7 @@ EXERCISES = [
     ),
     Exercise(
         "elbow_angle(a3, d4)",
+        look=looks.stretched,
         points=1,
         draw=_forearm,
         shape=(),
@@ -267,6 +269,7 @@ EXERCISES = [
     ),
     Exercise(
         "shoulder_theta3(theta2, lengths)",
+        look=looks.shoulder,
         points=3,
         draw=_arm,
         shape=(),
@@ -327,6 +330,7 @@ EXERCISES = [
     ),
     Exercise(
         "lost_motion(J)",
+        look=looks.twist,
         points=2,
         draw=_singular,
         shape=(6,),

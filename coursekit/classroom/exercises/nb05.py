@@ -6,6 +6,7 @@ import numpy as np
 
 from coursekit.classroom.exercise import Block, Edge, Exercise, Hint
 from coursekit.classroom.exercises import _nb05 as residuals
+from coursekit.classroom.exercises import looks
 
 # What the student's functions may call from coursekit.kinematics: what notebooks 01 to 03 had them write or
 # told them to use, and `log3`.
@@ -190,6 +191,7 @@ def _much_damping(f, args, step):
 EXERCISES = [
     Exercise(
         "jacobian_space(S, theta)",
+        look=looks.screws,
         points=3,
         draw=_screws,
         shape=(6, None),
@@ -295,6 +297,7 @@ EXERCISES = [
     ),
     Exercise(
         "ellipsoid(J)",
+        look=looks.ellipsoid,
         points=2,
         draw=_rows,
         shape=((3,), (3, 3)),
@@ -350,6 +353,7 @@ EXERCISES = [
     ),
     Exercise(
         "tool_velocity(theta, rate, lengths)",
+        look=looks.velocity,
         points=2,
         draw=_planar,
         shape=((2,), (2,)),

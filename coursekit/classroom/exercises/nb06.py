@@ -7,6 +7,7 @@ import numpy as np
 from coursekit.classroom.exercise import Block, Edge, Exercise, Hint
 from coursekit.classroom.exercises import _attitudes as draws
 from coursekit.classroom.exercises import _nb06 as residuals
+from coursekit.classroom.exercises import looks
 
 # What the student's functions may call from coursekit.kinematics: what earlier notebooks had them write, and
 # the elementary turns.
@@ -154,6 +155,7 @@ def _turned_once(f, args, speed):
 EXERCISES = [
     Exercise(
         "tool_frames(points, centre)",
+        look=looks.poses,
         points=3,
         draw=_curve,
         shape=(None, 4, 4),
@@ -194,6 +196,7 @@ EXERCISES = [
     ),
     Exercise(
         "quaternion(R)",
+        look=looks.from_quaternion,
         points=3,
         draw=draws.attitude,
         shape=(4,),
@@ -247,6 +250,7 @@ EXERCISES = [
     ),
     Exercise(
         "zyx(R)",
+        look=looks.from_zyx,
         points=2,
         draw=draws.away_from_lock,
         shape=(3,),

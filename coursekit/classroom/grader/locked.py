@@ -81,9 +81,11 @@ def write_files(files: dict[str, str], folder: Path) -> None:
 
 
 def locked_sources(allowed: tuple[str, ...]) -> dict[str, str]:
-    """{file name: source} of the locked coursekit.kinematics."""
-    trees = {path.name: ast.parse(path.read_text("utf-8")) for path in (PACKAGE / "kinematics").glob("*.py")}
-    functions = [f for name, tree in trees.items() for f in _functions(name.removesuffix(".py"), tree)]
+    """{file name: source} of the locked coursekit.kinematics, folders in it too."""
+    room = PACKAGE / "kinematics"
+    paths = {path.relative_to(room).as_posix(): path for path in room.rglob("*.py")}
+    trees = {name: ast.parse(path.read_text("utf-8")) for name, path in paths.items()}
+    functions = [f for name, tree in trees.items() for f in _functions(_module(name), tree)]
     needed = _needed(trees, functions, allowed)
     for name, function in functions:
         if permitted(name, allowed):
@@ -98,6 +100,11 @@ def locked_sources(allowed: tuple[str, ...]) -> dict[str, str]:
             first += 1
         tree.body[first:first] = ast.parse(GUARD).body
     return {name: ast.unparse(tree) for name, tree in trees.items()}
+
+
+def _module(name: str) -> str:
+    """ "ik/engine.py" -> "ik.engine", the name that `library_call` gives its functions."""
+    return name.removesuffix(".py").removesuffix("/__init__").replace("/", ".")
 
 
 def _functions(module: str, tree: ast.Module) -> list[tuple[str, ast.FunctionDef]]:

@@ -5,11 +5,11 @@ import numpy as np
 from coursekit.kinematics import ik, robots, rotations
 from coursekit.kinematics.robot import Robot
 from coursekit.view import text
-from coursekit.view.controls import Action, Control, Slider, Sliders, Table, Toggle, joint_sliders
+from coursekit.view.controls import Action, Slider, Sliders, Table, Toggle, joint_sliders
+from coursekit.view.explorers import Explorer
 from coursekit.view.paint import PALETTE
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
-from coursekit.view.scene import Scene
 
 # The pose of table 4.1 of the TPK4170 report (2021) for the KR6; a pose in reach for every other arm.
 CONFIGURATION = (2.0, -1.0, -1.0, 2.5, 0.6, 0.0)
@@ -31,60 +31,55 @@ def explore_inverse(robot: Robot | None = None, height: int = 470) -> Panel:
     robot : Robot, optional
         An arm with an analytic solution (`ik.analytic`); the KUKA KR6 without it. ValueError for any other.
     """
-    robot = robots.kuka_kr6() if robot is None else robot
-    target = robot.fk(np.resize(CONFIGURATION, robot.n))
-    state = _State(robot, target)
-    scene = Scene()
-    scene.robot(robot, state.shown)
-    scene.frame("/ck/target", target, size=0.08 * scene.size)
-
-    def update(values):
-        state.solve(values["pose"], values["guess"], values["solution"])
-        scene.set_theta("robot", state.shown)
-        scene.place("/ck/target", state.T)
-        _ghosts(scene, robot, state.others() if values["others"] else {})
-        way = robot.fk(state.steps())[:, :3, 3]
-        if values["trace"] and len(way) > 1:
-            scene.curve("/ck/newton", way)
-        else:
-            scene.remove("/ck/newton")
-
-    guess = joint_sliders(robot, np.clip(np.resize(GUESS, robot.n), robot.q_min, robot.q_max), name="guess")
-    for slider in guess.sliders:
-        slider.label = f"guess {slider.label}"
-    controls: list[Control | Sliders] = [
-        Sliders("pose", _pose_sliders(target, np.ceil(12 * scene.size) / 10)),
-        Toggle("others", "other solutions", start=True),
-        Toggle("trace", "Newton's way"),
-        Action("steps", "show Newton's steps", lambda panel: panel.play_theta(state.steps(), fps=2.0)),
-        guess,
-    ]
-    return Panel(
-        "inverse",
-        scene,
-        controls,
-        update,
-        lambda values: state.words(),
-        below=[
-            Table("solution", lambda values: state.table(), "All solutions; choose one.", True, state.chosen),
-            Plot(
-                state.plot,
-                "Newton from the guess: angle (circles) and distance (squares) left before each step.",
-            ),
-        ],
-        title="Explorer of inverse kinematics",
-        height=height,
-    )
+    return _Inverse(robots.kuka_kr6() if robot is None else robot).open(height)
 
 
-class _State:
+class _Inverse(Explorer):
     """The target, its solutions, the branch that is shown and Newton's run."""
 
-    def __init__(self, robot, target):
-        self.robot = robot
-        solutions = ik.analytic(robot, target)  # refuses arms without an analytic solution
+    name, title = "inverse", "Explorer of inverse kinematics"
+
+    def __init__(self, robot):
+        super().__init__(robot)
+        self.T = robot.fk(np.resize(CONFIGURATION, robot.n))
+        solutions = ik.analytic(robot, self.T)  # refuses arms without an analytic solution
         self.chosen = int(solutions.nearest(np.resize(CONFIGURATION, robot.n)))
         self.shown = _half_turns(solutions.turned)[self.chosen]
+        self.arm = self.scene.robot(robot, self.shown)
+        self.target = self.scene.frame("/ck/target", self.T, size=0.08 * self.scene.size)
+
+    def controls(self):
+        robot = self.robot
+        start = np.clip(np.resize(GUESS, robot.n), robot.q_min, robot.q_max)
+        guess = joint_sliders(robot, start, name="guess")
+        for slider in guess.sliders:
+            slider.label = f"guess {slider.label}"
+        return [
+            Sliders("pose", _pose_sliders(self.T, np.ceil(12 * self.scene.size) / 10)),
+            Toggle("others", "other solutions", start=True),
+            Toggle("trace", "Newton's way"),
+            Action("steps", "show Newton's steps", self.play),
+            guess,
+        ]
+
+    def below(self):
+        all_solutions = "All solutions; choose one."
+        left = "Newton from the guess: angle (circles) and distance (squares) left before each step."
+        return [Table("solution", self.table, all_solutions, True, self.chosen), Plot(self.plot, left)]
+
+    def update(self, values):
+        self.solve(values["pose"], values["guess"], values["solution"])
+        self.arm.theta = self.shown
+        self.target.move(self.T)
+        self.draw_ghosts(self.others() if values["others"] else {})
+        way = self.robot.fk(self.steps())[:, :3, 3]
+        if values["trace"] and len(way) > 1:
+            self.scene.curve("/ck/newton", way)
+        else:
+            self.scene.remove("/ck/newton")
+
+    def play(self):
+        self.panel.play(self.steps(), fps=2.0)
 
     def solve(self, pose, guess, row):
         self.T = np.eye(4)
@@ -103,29 +98,52 @@ class _State:
         self.found = ik.newton(self.robot, self.T, guess, max_iterations=STEPS, tol=1e-9, rows=rows)
 
     def others(self):
-        """Ghost name -> configuration: the other solutions or, out of reach, the closest pose found."""
+        """Ghost name -> configuration: the other solutions or, out of reach, the closest pose found.
+
+        While the arm shows Newton's steps, the chosen solution is another one, too.
+        """
         if not self.reached:
             return {"closest": self.found.theta}
         return {
             f"branch{k}": theta
             for k, theta in enumerate(self.theta)
-            if self.solutions.exists[k] and k != self.chosen
+            if self.solutions.exists[k] and (k != self.chosen or self.frame is not None)
         }
+
+    def draw_ghosts(self, wanted):
+        """Exactly these translucent arms. wanted: name -> configuration."""
+        present = {name: arm for name, arm in self.scene.robots.items() if arm.style == "ghost"}
+        for name in present.keys() - wanted.keys():
+            present[name].remove()
+        for name, theta in wanted.items():
+            if name in present:
+                present[name].theta = theta
+            else:
+                self.scene.robot(self.robot, theta, name=name, style="ghost")
 
     def steps(self):
         """Newton's configurations (N, n), the guess first."""
         return np.array([step.theta for step in self.found.history])
 
-    def words(self):
+    def words(self, values):
         exists, inside = self.solutions.exists, self.solutions.within_limits
         lines = [f"target: {text.pose(self.T)}"]
         if self.reached:
             count = f"{exists.sum()} of {len(exists)} solutions, {inside.sum()} inside the limits"
-            name = self.solutions.branches[self.chosen]
-            lines += [f"{count}; shown: {name}, {text.degrees(self.shown)}"]
+            lines += [f"{count}; {self.which()}"]
         else:
-            lines += [f"out of reach: no solution; the arm stays at {text.degrees(self.shown)}"]
+            lines += [f"out of reach: no solution; {self.which()}"]
         return "\n".join([*lines, f"Newton from the guess: {self.verdict()}"])
+
+    def which(self):
+        """What the solid arm shows."""
+        if self.frame is None:
+            name = f"shown: {self.solutions.branches[self.chosen]}," if self.reached else "the arm stays at"
+            return f"{name} {text.degrees(self.shown)}"
+        step = self.found.history[self.frame]
+        angle, distance = text.degrees(step.error[0]), text.millimetres(step.error[1])
+        at = f"{self.frame} of {self.found.iterations}, {text.degrees(step.theta)}"
+        return f"shown: Newton's step {at}, {angle} and {distance} away"
 
     def verdict(self):
         """What Newton's method came to, in words."""
@@ -136,7 +154,7 @@ class _State:
         left = f"{text.degrees(angle)} and {text.millimetres(distance)} away"
         return f"no solution in {STEPS} steps; the closest pose found is {left}"
 
-    def table(self):
+    def table(self, values):
         """Header and rows: branch, joint angles in degrees, whether the limits are kept, or why not."""
         header = ["branch", *(f"θ{i + 1} [deg]" for i in range(self.robot.n)), "limits"]
         rows = []
@@ -164,6 +182,8 @@ class _State:
             ax.semilogy(
                 np.maximum(error[:, column], 1e-17), style, ms=4, label=name, color=f"#{PALETTE[color]:06X}"
             )
+        if self.frame is not None:
+            ax.axvline(self.frame, color="black", ls="--", lw=1)
         ax.minorticks_off()  # many ticks are slow to draw
         ax.set(xlabel="step", ylabel="angle, distance left", ylim=(1e-17, 10), yticks=[1e-15, 1e-10, 1e-5, 1])
         ax.set_title(self.verdict().split(";")[0], fontsize=10)
@@ -183,15 +203,3 @@ def _pose_sliders(T, reach):
         *(Slider(n, p, -reach, reach, "mm") for n, p in zip("xyz", T[:3, 3], strict=True)),
         *(Slider(n, t, -ends[n], ends[n], "deg") for n, t in zip(ends, turns, strict=True)),
     ]
-
-
-def _ghosts(scene, robot, wanted):
-    """Exactly these translucent arms. wanted: name -> configuration."""
-    present = {ghost["path"].removeprefix("/ck/") for ghost in scene.ghosts}
-    for name in present - set(wanted):
-        scene.remove(f"/ck/{name}")
-    for name, theta in wanted.items():
-        if name in present:
-            scene.set_theta(name, theta)
-        else:
-            scene.robot(robot, theta, name=name, style="ghost")

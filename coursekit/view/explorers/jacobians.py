@@ -6,16 +6,20 @@ from coursekit.kinematics import ik, jacobians, robots, singularity
 from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Action, Slider, Toggle, joint_sliders
+from coursekit.view.explorers import Explorer
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
-from coursekit.view.scene import Scene
 
 STRETCHED = (0.0, 0.6, 0.0, -0.08, 0.0, 0.5, 0.7)  # of the Panda: elbow almost straight
 NEARLY_ZERO = 0.05  # rad or m; the start of every other arm
 STEPS = 50
-SCALE = {"linear": 0.3, "angular": 0.1}  # m drawn for 1 m/s and for 1 rad/s, on a stage of 1 m
+SCALE = {"linear": 0.3, "angular": 0.1}  # on a stage of 1 m
 UNIT = {"linear": "m/s", "angular": "rad/s"}
 COLOR = {"linear": "trace", "angular": "accent"}
+CAPTION = (
+    "How far the joints turn in each step towards {d}: Newton (circles) leaps where the arm is nearly "
+    "singular, damped least squares (squares) does not."
+)
 METHODS = {
     "skew": jacobians.skew_theory,
     "derivative": jacobians.by_matrix_derivative,
@@ -35,73 +39,75 @@ def explore_jacobians(robot: Robot | None = None, height: int = 470) -> Panel:
     robot : Robot, optional
         Any arm; the Franka Panda without it.
     """
-    robot = robots.franka_panda() if robot is None else robot
-    near = _nearly_singular(robot)
-    runs = _Runs(robot)
-    scene = Scene()
-    scene.robot(robot, near)
-    scene.frame("/ck/target", runs.target, letter="d", size=0.14 * scene.size)
-    drawn = {part: round(scale * scene.size, 2) for part, scale in SCALE.items()}  # so that the text is exact
-
-    def draw(theta):
-        J, tool = robot.jacobian_geometric(theta), robot.fk(theta)[:3, 3]
-        for part, scale in drawn.items():
-            found = jacobians.ellipsoid(J, part)
-            scene.ellipsoid(f"/ck/{part}", found.axes, scale * found.lengths, tool, COLOR[part])
-
-    def update(values):
-        scene.set_theta("robot", values["theta"])
-        draw(values["theta"])
-        for part in drawn:
-            scene.show(f"/ck/{part}", values[part])
-
-    def words(values):
-        lines = [*_lengths(robot, values, drawn), *_methods(robot, values["theta"]), runs.words(values)]
-        return "\n".join(lines)
-
-    return Panel(
-        "jacobians",
-        scene,
-        [
-            joint_sliders(robot, near),
-            Toggle("linear", "linear ellipsoid (teal)", start=True),
-            Toggle("angular", "angular ellipsoid (pink)"),
-            Slider("damping", 0.1, 0.01, 1.0, step=0.01, label="damping k"),
-            Action("bent", "home pose", lambda panel: panel.set(theta=robot.home)),
-            Action("near", "near the singularity", lambda panel: panel.set(theta=near)),
-            Action("newton", "play Newton", lambda panel: runs.play(panel, "newton", draw)),
-            Action("damped", "play damped", lambda panel: runs.play(panel, "damped", draw)),
-        ],
-        update,
-        words,
-        below=[
-            Plot(
-                runs.plot,
-                "How far the joints turn in each step towards {d}: Newton (circles) leaps where the arm "
-                "is nearly singular, damped least squares (squares) does not.",
-            )
-        ],
-        title="Explorer of Jacobian methods",
-        height=height,
-    )
+    return _Jacobians(robots.franka_panda() if robot is None else robot).open(height)
 
 
-class _Runs:
-    """Newton and damped least squares from where the arm stands to the target."""
+class _Jacobians(Explorer):
+    """The ellipsoids of the arm as it stands; Newton and damped least squares from there to the target."""
+
+    name, title = "jacobians", "Explorer of Jacobian methods"
+    computed = ("/ck/linear", "/ck/angular")
 
     def __init__(self, robot):
-        self.robot = robot
+        super().__init__(robot)
         goal = robot.home
         if (
             singularity.sigma_min(robot, goal) < 0.05
         ):  # a goal that is singular itself shows nothing but slowness
             goal = np.clip(goal + 0.5, robot.q_min, robot.q_max)
-        self.target = robot.fk(goal)
+        self.target, self.near = robot.fk(goal), _nearly_singular(robot)
         self._key, self._found = None, {}
+        self.start, self.damping = self.near, None  # of the runs
+        self.arm = self.scene.robot(robot, self.near)
+        self.scene.frame("/ck/target", self.target, letter="d", size=0.14 * self.scene.size)
+        # metres drawn for 1 m/s and for 1 rad/s; rounded, so that the text is exact
+        self.scale = {part: round(scale * self.scene.size, 2) for part, scale in SCALE.items()}
+
+    def controls(self):
+        self.joints = joint_sliders(self.robot, self.near)
+        return [
+            self.joints,
+            Toggle("linear", "linear ellipsoid (teal)", start=True),
+            Toggle("angular", "angular ellipsoid (pink)"),
+            Slider("damping", 0.1, 0.01, 1.0, step=0.01, label="damping k"),
+            Action("bent", "home pose", lambda: self.panel.set(theta=self.robot.home)),
+            Action("near", "near the singularity", lambda: self.panel.set(theta=self.near)),
+            Action("newton", "play Newton", lambda: self.play("newton")),
+            Action("damped", "play damped", lambda: self.play("damped")),
+        ]
+
+    def below(self):
+        return [Plot(self.plot, CAPTION)]
+
+    def update(self, values):
+        if values["damping"] != self.damping:  # another run, from the same start
+            self.damping = values["damping"]
+            self.joints.put(self.start)
+        self.arm.theta = self.joints.get()
+        if self.frame is None:
+            self.start = self.arm.theta
+        self.draw(self.arm.theta)
+        for part, drawn in self.ellipsoids.items():
+            drawn.show(values[part])
+
+    def draw(self, theta):
+        """Both ellipsoids at the tool."""
+        J, tool = self.robot.jacobian_geometric(theta), self.robot.fk(theta)[:3, 3]
+        found = {part: jacobians.ellipsoid(J, part) for part in SCALE}
+        self.ellipsoids = {
+            part: self.scene.ellipsoid(f"/ck/{part}", e.axes, self.scale[part] * e.lengths, tool, COLOR[part])
+            for part, e in found.items()
+        }
+
+    def words(self, values):
+        robot, theta = self.robot, values["theta"]
+        return "\n".join(
+            [*_lengths(robot, values, self.scale), *_methods(robot, theta), self.comparison(values)]
+        )
 
     def found(self, values):
-        """Name -> Numeric, computed once for the same sliders."""
-        theta, k = values["theta"], values["damping"]
+        """Name -> Numeric from the start, computed once for the same sliders."""
+        theta, k = self.start, values["damping"]
         key = (*theta, k)
         if key != self._key:
             common = {"max_iterations": STEPS, "tol": 1e-8, "rows": "all" if self.robot.n > 5 else "linear"}
@@ -112,12 +118,12 @@ class _Runs:
             }
         return self._found
 
-    def play(self, panel, name, draw):
-        """Show the steps of one method, two a second; draw(theta) moves the ellipsoids along."""
-        steps = [step.theta for step in self.found(panel.values)[name].history]
-        panel.play_theta(np.array(steps), fps=2.0, follow=draw)
+    def play(self, name):
+        """Show the steps of one method, two a second."""
+        steps = [step.theta for step in self.found(self.panel.values)[name].history]
+        self.panel.play(np.array(steps), fps=2.0, follow=self.draw)
 
-    def words(self, values):
+    def comparison(self, values):
         """Steps and longest step of both methods."""
         parts = []
         for name, title in (
@@ -128,7 +134,8 @@ class _Runs:
             longest = max(step.step for step in found.history)
             count = f"{found.iterations} steps" if found.converged else f"not there after {STEPS} steps"
             parts.append(f"{title}: {count}, the longest {text.number(longest, 2)} rad")
-        return "to {d}  " + "; ".join(parts)
+        begun = "" if self.frame is None else f" from the start, shown: step {self.frame}"
+        return f"to {{d}}{begun}  " + "; ".join(parts)
 
     def plot(self, figure, values):
         """Length of each step, on a log axis."""

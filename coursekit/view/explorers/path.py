@@ -7,9 +7,9 @@ from coursekit.kinematics import ik, path, robots
 from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Choice, Table, Toggle
+from coursekit.view.explorers import Explorer
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
-from coursekit.view.scene import Scene
 
 POINTS = (101, 201, 501, 1001, 5001)
 FRAMES = 501  # the most poses that are sent to the page
@@ -37,58 +37,17 @@ def explore_path(robot: Robot | None = None, points: ArrayLike | None = None, he
         Another curve on the sphere of radius 0.5 m about (0, 0, 0.5), for instance from `path.load_points`;
         the letter S without it. ValueError where the arm cannot follow the curve in any way.
     """
-    robot = robots.abb_irb1200() if robot is None else robot
-    run = _Run(robot, points)
-    scene = Scene()
-    scene.robot(robot, run.q[run.branch, 0])
-    scene.frame(f"/ck/robot/{robot.n}/tool", robot.M, size=0.12 * scene.size)
-    scene.sphere("/ck/sphere", path.SPHERE_CENTER, path.SPHERE_RADIUS)
-    scene.curve("/ck/curve", run.points)
-    some = np.linspace(0, len(run.points) - 1, NORMALS).round().astype(int)
-    scene.normals("/ck/normals", run.points[some], 0.1 * path.frames(run.points)[some, :3, 0])
-
-    def update(values):
-        another = run.choose(values["points"], values["bounds"], values["branch"], values["wrapped"])
-        if another and run.panel:
-            run.send()
-        scene.set_theta("robot", run.q[run.branch, run.place])
-        for part in ("sphere", "normals"):
-            scene.show(f"/ck/{part}", values[part])
-
-    bounds = {"2 rad/s each": np.full(robot.n, ONE_BOUND)}
-    if np.isfinite(robot.v_max).all():
-        bounds["the robot's own"] = robot.v_max
-    ways = {name: k for k, name in enumerate(run.names) if run.reached[k] == len(run.points)}
-    run.panel = Panel(
-        "path",
-        scene,
-        [
-            Choice("branch", ways, run.names[run.branch], "way"),
-            Choice("points", {str(n): n for n in POINTS}, label="points"),
-            Choice("bounds", bounds, label="rate bounds"),
-            Toggle("wrapped", "differences of wrapped angles"),
-            Toggle("normals", "outward normals", start=True),
-            Toggle("sphere", "sphere", start=True),
-        ],
-        update,
-        lambda values: run.words(),
-        [
-            Plot(run.plot, CAPTION, (5.2, 3.5)),
-            Table("ways", lambda values: run.table(), "All ways along the path."),
-        ],
-        title="Explorer of the path",
-        height=height,
-    )
-    run.send()
-    run.panel.viewer.observe(run.rested, "frame")
-    return run.panel
+    return _Path(robots.abb_irb1200() if robot is None else robot, points).open(height)
 
 
-class _Run:
+class _Path(Explorer):
     """The arm on the path: all branches at every sampling asked for so far, and the one that is shown."""
 
+    name, title = "path", "Explorer of the path"
+
     def __init__(self, robot, curve):
-        self.robot, self.curve, self.panel = robot, curve, None
+        super().__init__(robot)
+        self.curve = curve
         self.known = {}  # number of points -> points, q, points reached, points inside the limits
         n = POINTS[0]
         points, q, reached, inside = self._follow(n)
@@ -100,8 +59,52 @@ class _Run:
         inside = np.where(reached == n, inside, -1)
         best = np.flatnonzero(inside == inside.max())
         self.branch = min(best.tolist(), key=lambda k: np.abs(q[k, 0]).sum())  # the one nearest to zero
-        self.place, self.motion = 0, None
+        self.place = 0
         self.choose(n, np.full(robot.n, ONE_BOUND), self.branch, False)
+        self.draw()
+
+    def draw(self):
+        scene, robot = self.scene, self.robot
+        self.arm = scene.robot(robot, self.q[self.branch, 0])
+        scene.frame(self.arm.link(robot.n) + "/tool", robot.M, size=0.12 * scene.size)
+        scene.curve("/ck/curve", self.points)
+        some = np.linspace(0, len(self.points) - 1, NORMALS).round().astype(int)
+        outward = 0.1 * path.frames(self.points)[some, :3, 0]
+        self.switched = {
+            "sphere": scene.sphere("/ck/sphere", path.SPHERE_CENTER, path.SPHERE_RADIUS),
+            "normals": scene.normals("/ck/normals", self.points[some], outward),
+        }
+
+    def controls(self):
+        bounds = {"2 rad/s each": np.full(self.robot.n, ONE_BOUND)}
+        if np.isfinite(self.robot.v_max).all():
+            bounds["the robot's own"] = self.robot.v_max
+        ways = {name: k for k, name in enumerate(self.names) if self.reached[k] == len(self.points)}
+        return [
+            Choice("branch", ways, self.names[self.branch], "way"),
+            Choice("points", {str(n): n for n in POINTS}, label="points"),
+            Choice("bounds", bounds, label="rate bounds"),
+            Toggle("wrapped", "differences of wrapped angles"),
+            Toggle("normals", "outward normals", start=True),
+            Toggle("sphere", "sphere", start=True),
+        ]
+
+    def below(self):
+        return [Plot(self.plot, CAPTION, (5.2, 3.5)), Table("ways", self.table, "All ways along the path.")]
+
+    def open(self, height):
+        panel = super().open(height)
+        self.send()
+        return panel
+
+    def update(self, values):
+        self.choose(values["points"], values["bounds"], values["branch"], values["wrapped"])
+        if self.panel and self.frame is None:  # the motion ends with every choice: here is another
+            self.send()
+        self.place = int(self.shown[self.frame]) if self.panel else 0
+        self.arm.theta = self.q[self.branch, self.place]
+        for name, drawn in self.switched.items():
+            drawn.show(values[name])
 
     def _follow(self, n):
         if n not in self.known:
@@ -112,16 +115,11 @@ class _Run:
         return self.known[n]
 
     def choose(self, n, bounds, branch, wrapped):
-        """Take what the controls say. -> whether the page needs another motion."""
+        """Take what the controls say."""
         self.points, self.q, self.reached, self.inside = self._follow(n)
         self.branch, self.bounds, self.wrapped = branch, bounds, wrapped
         self.limit = path.speed_limit(self.q, self.points, bounds)
         self.faulty = path.speed_limit(_wrapped(self.q), self.points, bounds)
-        before, self.motion = self.motion, (n, self.branch, *bounds)
-        another = self.motion != before
-        if another:
-            self.place = 0
-        return another
 
     # -- the motion in the page
 
@@ -130,16 +128,8 @@ class _Run:
         n = len(self.points)
         self.shown = np.linspace(0, n - 1, min(n, FRAMES)).round().astype(int)
         seconds = path.steps(self.points).sum() / self.limit.speed[self.branch]
-        poses, texts = self.robot.displacements(self.q[self.branch, self.shown]), self._at(self.shown)
-        self.sending = True
-        self.panel.play(poses, fps=(len(self.shown) - 1) / seconds, texts=texts, autoplay=False)
-        self.sending = False
-
-    def rested(self, change):
-        """The motion was paused or scrubbed (or reset: -1): arm, text and plot follow."""
-        if not self.sending:
-            self.place = int(self.shown[np.clip(change.new, 0, len(self.shown) - 1)])
-            self.panel.refresh()
+        fps, texts = (len(self.shown) - 1) / seconds, self._at(self.shown)
+        self.panel.play(self.q[self.branch, self.shown], fps=fps, texts=texts, autoplay=False)
 
     # -- words, table, plot
 
@@ -157,7 +147,7 @@ class _Run:
         q = _wrapped(self.q) if limit is self.faulty else self.q
         return path.joint_rates(q[self.branch], self.points, limit.speed[self.branch]) / self.bounds
 
-    def words(self):
+    def words(self, values):
         k, theta = self.branch, self.q[self.branch, self.place]
         joint = self.limit.joint[k]
         full = np.flatnonzero(np.abs(self._use(self.limit)[:, joint]) > 1 - 1e-9)  # two where it is symmetric
@@ -181,7 +171,7 @@ class _Run:
         jump = f"joint {joint + 1} seems to turn {text.number(seems)} rad; it turns {text.number(turns)} rad"
         return f"{speed} after point {i + 1} {jump}"
 
-    def table(self):
+    def table(self, values):
         """Header and rows: way, largest speed, the joint that sets it, points inside, spread of q3."""
         n, rows, limit = len(self.points), [], self.faulty if self.wrapped else self.limit
         for k, name in enumerate(self.names):

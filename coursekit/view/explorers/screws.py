@@ -6,8 +6,8 @@ from coursekit.kinematics import dh, lie, robots
 from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Choice, Slider
+from coursekit.view.explorers import Explorer
 from coursekit.view.panel import Panel
-from coursekit.view.scene import Scene
 
 
 def explore_screws(robot: Robot | None = None, height: int = 470) -> Panel:
@@ -24,60 +24,60 @@ def explore_screws(robot: Robot | None = None, height: int = 470) -> Panel:
     robot = robots.kuka_kr6() if robot is None else robot
     if "prismatic" in robot.joint_types:
         raise ValueError(f"{robot.name} has a prismatic joint: this explorer shows revolute joints only")
-    frames = _frames(robot)
-    zero = np.zeros(robot.n)
-    origins = robot.link_frames(zero)[:, :3, 3]
-    scene = Scene()
-    scene.robot(robot, zero)
-    scene.look("robot", solid=True, skeleton=True)
+    return _Screws(robot).open(height)
 
-    def place(values):
-        """Index of the joint, its screw in the space frame and the point q, and the frame that looks on."""
-        i = values["joint"]
-        S = robot.S[:, i]
-        nearest = np.cross(S[:3], S[3:])
-        q = nearest + S[:3] * (S[:3] @ (origins[i] - nearest) + values["slide"])
-        return i, S, q, values["frame"]
 
-    def update(values):
-        i, S, q, (letter, T) = place(values)
-        scene.set_theta("robot", values["turn"] * np.eye(robot.n)[i])
-        scene.screw_axis("/ck/axis", S, label=f"S{i + 1}", at=q)
-        scene.point("/ck/q", q, "q", color="accent")
+class _Screws(Explorer):
+    name, title = "screws", "Explorer of screws"
+
+    def __init__(self, robot):
+        super().__init__(robot)
+        self.frames = _frames(robot)
+        self.turn = Slider("turn", 0.0, -np.pi, np.pi, unit="deg", label="turn this joint")
+        self.origins = robot.link_frames(np.zeros(robot.n))[:, :3, 3]
+        self.arm = self.scene.robot(robot, np.zeros(robot.n))
+        self.arm.look(solid=True, skeleton=True)
+
+    def controls(self):
+        return [
+            Choice("joint", {f"joint {i + 1}": i for i in range(self.robot.n)}, start="joint 2"),
+            Choice("frame", self.frames, label="seen from"),
+            Slider("slide", 0.0, -0.3, 0.3, unit="mm", label="q along the axis"),
+            self.turn,
+        ]
+
+    def drivers(self, values):
+        return [self.turn if k == values["joint"] else None for k in range(self.robot.n)]
+
+    def update(self, values):
+        i, scene = values["joint"], self.scene
+        self.S = self.robot.S[:, i]
+        w, v = self.S[:3], self.S[3:]
+        nearest = np.cross(w, v)
+        self.q = nearest + w * (w @ (self.origins[i] - nearest) + values["slide"])
+        self.arm.theta = values["turn"] * np.eye(self.robot.n)[i]
+        letter, T = values["frame"]
+        scene.screw_axis("/ck/axis", self.S, label=f"S{i + 1}", at=self.q)
+        scene.point("/ck/q", self.q, "q", color="accent")
         scene.frame("/ck/seen", T, letter=letter, size=0.14 * scene.size)
-        scene.line("/ck/lever", T[:3, 3], q)
-        scene.arrow("/ck/v", T[:3, 3], S[3:] + np.cross(S[:3], T[:3, 3]), color="trace", label="v")
+        scene.line("/ck/lever", T[:3, 3], self.q)
+        scene.arrow("/ck/v", T[:3, 3], v + np.cross(w, T[:3, 3]), color="trace", label="v")
 
-    def describe(values):
-        i, S, q, (letter, T) = place(values)
-        seen = lie.adjoint(lie.inverse(T)) @ S
-        q_seen = (lie.inverse(T) @ [*q, 1])[:3]
+    def words(self, values):
+        i, (letter, T) = values["joint"], values["frame"]
+        seen = lie.adjoint(lie.inverse(T)) @ self.S
+        q_seen = (lie.inverse(T) @ [*self.q, 1])[:3]
         name = "S" if letter == "s" else "B"
-        tool = robot.fk(values["turn"] * np.eye(robot.n)[i])[:3, 3]
+        tool = self.robot.fk(self.arm.theta)[:3, 3]
         return "\n".join(
             [
-                f"joint {i + 1} of {robot.name}, seen from frame {{{letter}}}",
+                f"joint {i + 1} of {self.robot.name}, seen from frame {{{letter}}}",
                 f"direction w = {text.row(seen[:3])}    point q = {text.millimetres(q_seen)}",
                 f"v = -w x q = {text.row(1000 * seen[3:], 1)} mm per rad, of the point at {{{letter}}}",
                 f"column {i + 1} of {name} = {text.row(seen)}    (w; v), v in metres",
                 f"tool at {text.millimetres(tool)} after {text.degrees(values['turn'])}",
             ]
         )
-
-    return Panel(
-        "screws",
-        scene,
-        [
-            Choice("joint", {f"joint {i + 1}": i for i in range(robot.n)}, start="joint 2"),
-            Choice("frame", frames, label="seen from"),
-            Slider("slide", 0.0, -0.3, 0.3, unit="mm", label="q along the axis"),
-            Slider("turn", 0.0, -np.pi, np.pi, unit="deg", label="turn this joint"),
-        ],
-        update,
-        describe,
-        title="Explorer of screws",
-        height=height,
-    )
 
 
 def _frames(robot):

@@ -1,5 +1,7 @@
 """Notebook 04: det J and its factors live, what is lost, and a map of the singularities over two joints."""
 
+from functools import partial
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -7,12 +9,17 @@ from coursekit.kinematics import robots, singularity
 from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Action, Choice, Toggle, joint_sliders
+from coursekit.view.explorers import Explorer
 from coursekit.view.figures import nb04
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
-from coursekit.view.scene import Scene
 
 UNITS = {"wrist": "", "elbow": " m^2", "shoulder": " m"}
+JOINTS = {f"θ{k + 1}": k for k in range(1, 5)}  # det J depends on no other joint
+CAPTION = (
+    "Dark: det J is small. White lines: a factor is 0 (elbow dashed, shoulder solid, wrist dotted). "
+    "The cross is the arm; click to move it."
+)
 NEAR = 0.05  # relative factor below which a singularity is called near: about 3 degrees
 
 
@@ -33,77 +40,83 @@ def explore_singularities(robot: Robot | None = None, height: int = 470) -> Pane
     """
     arms = [arm for arm in robots.all().values() if _has_factors(arm)] if robot is None else [robot]
     singularity.factors(arms[0], arms[0].home)  # refuses an arm without the three factors
-    shown = [arms[0]]
-    scene = Scene()
-    _draw(scene, shown[0])
-    joints = joint_sliders(shown[0], _start(shown[0]))
-    picker = [Choice("robot", {arm.name: arm for arm in arms})] if len(arms) > 1 else []
-    moving = {f"θ{k + 1}": k for k in range(1, 5)}  # det J depends on no other joint
-    across = Choice("across", moving, "θ2", "map, across")
-    upwards = Choice("up", moving, "θ3", "map, upwards")
+    return _Singularities(arms).open(height)
 
-    def update(values):
-        if picker and values["robot"] is not shown[0]:
-            shown[0] = values["robot"]
-            scene.remove("/ck/robot")
-            _draw(scene, shown[0])
-            for k, slider in enumerate(joints.used):
-                slider.fit_joint(shown[0], k, _start(shown[0])[k])
-        if values["across"] == values["up"]:  # two different joints
-            upwards.put("θ3" if values["across"] != moving["θ3"] else "θ2")
-        theta = joints.get()
-        scene.set_theta("robot", theta)
-        for k in range(1, shown[0].n + 1):
-            scene.show(f"/ck/robot/{k}/line", values["axes"])
-        _show_loss(scene, shown[0], theta, values["lost"], values["line"])
 
-    def draw(figure, values):
-        ax, i, j = figure.subplots(), values["across"], values["up"]
-        nb04.draw_map(ax, shown[0], values["theta"], i, j)
-        ax.plot(*np.degrees(values["theta"][[i, j]]), "X", color="#F07A2B", mec="w", ms=11)
+class _Singularities(Explorer):
+    name, title = "singularities", "Explorer of singularities"
+    computed = ("/ck/lost", "/ck/meets_all")
 
-    def click(x, y):
-        theta = panel.values["theta"]
-        theta[[panel.values["across"], panel.values["up"]]] = np.radians([x, y])
-        panel.set(theta=np.clip(theta, *_ends(shown[0])))
+    def __init__(self, arms):
+        super().__init__(arms[0])
+        self.arms = {arm.name: arm for arm in arms}
+        self.joints = joint_sliders(self.robot, _start(self.robot))
+        self.upwards = Choice("up", JOINTS, "θ3", "map, upwards")
+        self.show(self.robot)
 
-    def drive_to(name):
-        def act(panel):
-            start = panel.values["theta"]
-            end = nearest(shown[0], start, name)
-            if end is not None:
-                panel.set(theta=end)
-                panel.play_theta(np.linspace(start, end, 31))
-
-        return act
-
-    panel = Panel(
-        "singularities",
-        scene,
-        [
-            *picker,
-            joints,
-            across,
-            upwards,
+    def controls(self):
+        return [
+            *([Choice("robot", self.arms)] if len(self.arms) > 1 else []),
+            self.joints,
+            Choice("across", JOINTS, "θ2", "map, across"),
+            self.upwards,
             Toggle("lost", "lost motion", start=True),
             Toggle("line", "line that meets all axes", start=True),
             Toggle("axes", "joint axes", start=True),
-            *(Action(f"to_{name}", f"to the {name}", drive_to(name)) for name in singularity.NAMES),
-        ],
-        update,
-        lambda values: words(shown[0], values["theta"]),
-        below=[
-            Plot(
-                draw,
-                "Dark: det J is small. White lines: a factor is 0 (elbow dashed, shoulder solid, wrist "
-                "dotted). The cross is the arm; click to move it.",
-                on_click=click,
-            )
-        ],
-        title="Explorer of singularities",
-        height=height,
-    )
-    return panel
+            *(
+                Action(f"to_{kind}", f"to the {kind}", partial(self.drive_to, kind))
+                for kind in singularity.NAMES
+            ),
+        ]
+
+    def below(self):
+        return [Plot(self.plot, CAPTION, on_click=self.click)]
+
+    def show(self, robot):
+        """The arm, and each joint axis as a long line that moves with its link."""
+        self.robot, scene = robot, self.scene
+        scene.remove("/ck/robot")
+        # the camera leaves room for the stretched arm
+        self.arm = scene.robot(robot, nearest(robot, _start(robot), "elbow"))
+        origins = robot.link_frames(np.zeros(robot.n))[:, :3, 3]
+        self.lines = []
+        for k, (S, near) in enumerate(zip(robot.S.T, origins, strict=True), 1):
+            w = S[:3]
+            ends = np.cross(w, S[3:]) + w * (w @ near) + np.outer([-0.6, 0.6], w) * scene.size
+            wire = np.linspace(*ends, 33)
+            self.lines.append(scene.curve(self.arm.link(k) + "/line", wire, "axis", 0.002 * scene.size))
+        for k, slider in enumerate(self.joints.used):
+            slider.fit_joint(robot, k, _start(robot)[k])
+
+    def update(self, values):
+        if values.get("robot", self.robot) is not self.robot:
+            self.show(values["robot"])
+        if values["across"] == values["up"]:  # two different joints
+            self.upwards.put("θ3" if values["across"] != JOINTS["θ3"] else "θ2")
+        self.arm.theta = self.joints.get()
+        for line in self.lines:
+            line.show(values["axes"])
+        _show_loss(self.scene, self.robot, self.arm.theta, values["lost"], values["line"])
+
+    def words(self, values):
+        return words(self.robot, values["theta"])
+
+    def plot(self, figure, values):
+        ax, i, j = figure.subplots(), values["across"], values["up"]
+        nb04.draw_map(ax, self.robot, values["theta"], i, j)
+        ax.plot(*np.degrees(values["theta"][[i, j]]), "X", color="#F07A2B", mec="w", ms=11)
+
+    def click(self, x, y):
+        values = self.panel.values
+        theta = values["theta"]
+        theta[[values["across"], values["up"]]] = np.radians([x, y])
+        self.panel.set(theta=np.clip(theta, *_ends(self.robot)))
+
+    def drive_to(self, kind):
+        start = self.panel.values["theta"]
+        end = nearest(self.robot, start, kind)
+        if end is not None:
+            self.panel.play(np.linspace(start, end, 31))
 
 
 def nearest(robot: Robot, theta: ArrayLike, name: str) -> np.ndarray | None:
@@ -173,16 +186,6 @@ def _ends(robot):
 def _start(robot):
     """A regular configuration near home, (6,)."""
     return np.clip(robot.home + np.radians([0, 10, 20, 25, 45, 0]), *_ends(robot))
-
-
-def _draw(scene, robot):
-    """The arm, and each joint axis as a long line that moves with its link."""
-    scene.robot(robot, nearest(robot, _start(robot), "elbow"))  # the camera leaves room for the stretched arm
-    for k, S in enumerate(robot.S.T):
-        w, near = S[:3], robot.link_frames(np.zeros(robot.n))[k, :3, 3]
-        foot = np.cross(w, S[3:]) + w * (w @ near)
-        ends = foot + np.outer([-0.6, 0.6], w) * scene.size
-        scene.curve(f"/ck/robot/{k + 1}/line", np.linspace(*ends, 33), "axis", 0.002 * scene.size)
 
 
 def _wrist(robot, theta):

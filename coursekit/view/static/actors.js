@@ -94,19 +94,21 @@ function makeCamera(THREE, viewer, pane) {
   const { camera, controls } = viewer;
   const spherical = new THREE.Spherical(), offset = new THREE.Vector3();
   let shown = null; // the named view, as long as nobody turned it
+  let wide = 1; // the width of the picture, by its height, for which the views were made
   controls.addEventListener("start", () => (shown = null));
   const place = () => {
     const aspect = pane.clientWidth / pane.clientHeight;
     if (!shown || !aspect) return;
     controls.target.set(...yUp(shown.target));
-    offset.set(...yUp(shown.position)).sub(controls.target).multiplyScalar(Math.max(1, 1.25 / aspect)); // narrow: step back
+    offset.set(...yUp(shown.position)).sub(controls.target).multiplyScalar(Math.max(1, wide / aspect)); // narrow: step back
     camera.position.copy(controls.target).add(offset);
     controls.update();
     viewer.set_dirty();
   };
   return {
-    lens(size) {
-      camera.fov = 32;
+    lens({ size, fov, aspect }) {
+      wide = aspect;
+      camera.fov = fov;
       camera.near = 0.02 * size;
       camera.far = 30 * size;
     },

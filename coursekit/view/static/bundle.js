@@ -57,9 +57,10 @@ async function receiveBundle(data) {
   const shared = page();
   if (shared.MeshCat || shared.busy) return;
   shared.busy = true;
-  const source = await gunzip(data);
   const reasons = [];
+  const source = await gunzip(data).catch((error) => reasons.push(`gunzip: ${error.message}`) && null);
   for (const evaluate of waysToEvaluate) {
+    if (source === null) break;
     try {
       const MeshCat = await evaluate(source);
       if (!MeshCat || !MeshCat.Viewer) throw new Error("no Viewer in it");
@@ -73,7 +74,8 @@ async function receiveBundle(data) {
   }
   shared.busy = false;
   console.warn("[coursekit] the 3D viewer cannot run here:", reasons.join("; "));
-  shared.reject(new Error("this page's security policy stops the 3D viewer (an administrator can add blob: to script-src)"));
+  const policy = "this page's security policy stops the 3D viewer (an administrator can add blob: to script-src)";
+  shared.reject(new Error(source === null ? "its script came damaged; reload the page" : policy));
 }
 
 // A reloaded page or a second browser was not there when the bundle was pushed: ask, once per page at a time. And ask

@@ -5,16 +5,12 @@
 // A name for the page's only element of this kind: a counter would not do, each widget runs its own copy of this module.
 const unique = (kind) => `ck-${kind}-${Math.random().toString(36).slice(2)}`;
 
-function element(tag, attributes = {}, ...children) {
-  const node = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
-  node.append(...children);
-  return node;
+// A person has changed this control: the kernel is told, and whoever listens in the page.
+function tell(model, changes = {}) {
+  for (const [name, value] of Object.entries(changes)) model.set(name, value);
+  model.set("touched", model.get("touched") + 1);
+  model.save_changes();
 }
-
-// JupyterLab and Notebook take arrow keys and letters for themselves, unless an element says no.
-const own = { "data-lm-suppress-shortcuts": "true" };
-const keepKeys = (node) => node.addEventListener("keydown", (event) => event.stopPropagation());
 
 const trim = (value, digits) => String(Number(value.toFixed(digits)) + 0); // "+ 0": never "-0"
 
@@ -36,11 +32,14 @@ function buildSlider(model, el) {
   const spoken = { deg: "degrees", mm: "millimetres", m: "metres" }[unit] || unit;
   const range = element("input", { ...own, id, type: "range", role: "slider", class: "ck-range", min, max, step: "any",
     "aria-valuemin": min, "aria-valuemax": max });
-  const box = element("input", { ...own, type: "number", class: "ck-number", min, max, step, "aria-label": `${label}, ${spoken}` });
+  // not of type "number": that would drop the comma of 12,5 without a word
+  const box = element("input", { ...own, type: "text", inputmode: "decimal", autocomplete: "off", class: "ck-number",
+    "aria-label": `${label}, ${spoken}` });
+  const hint = element("div", { class: "ck-hint", role: "alert" });
   const name = element("label", { class: "ck-name", for: id }, label);
   const ends = element("div", { class: "ck-ends", "aria-hidden": "true" });
   const track = element("div", { class: "ck-track" }, range, ends);
-  const row = element("div", { class: "ck-slider" }, name, track, box, element("span", { class: "ck-unit" }, unit));
+  const row = element("div", { class: "ck-slider" }, name, track, box, element("span", { class: "ck-unit" }, unit), hint);
   el.append(row);
 
   // The limits of the joint, marked where they are: at the ends, or inside when the slider goes beyond them.
@@ -64,13 +63,12 @@ function buildSlider(model, el) {
     const outside = limits.length && (value < limits[0] - 1e-9 || value > limits[1] + 1e-9);
     range.setAttribute("aria-valuetext", `${trim(value, digits)} ${spoken}${outside ? ", outside the joint's limits" : ""}`);
     row.classList.toggle("ck-outside", Boolean(outside));
-    if (document.activeElement !== box || !box.ckEdited) box.value = trim(value, digits);
+    if (!box.ckEdited) box.value = trim(value, digits);
   };
   const send = (value, live) => {
     const inside = Math.min(max, Math.max(min, value));
-    model.set("value", Number(inside.toPrecision(15)));
-    model.set("live", live);
-    model.save_changes();
+    hint.textContent = "";
+    tell(model, { value: Number(inside.toPrecision(15)), live });
     draw();
   };
   const snap = (value, grid) => Math.round(value / grid) * grid;
@@ -94,12 +92,31 @@ function buildSlider(model, el) {
     send(end === undefined ? Number((model.get("value") + jump * grid).toFixed(9)) : end, event.repeat);
   });
   range.addEventListener("keyup", () => model.get("live") && send(model.get("value"), false));
+  const revert = () => {
+    box.ckEdited = false;
+    draw();
+  };
   box.addEventListener("input", () => (box.ckEdited = true));
   box.addEventListener("change", () => {
+    if (!box.ckEdited) return; // taken back by Escape
+    const { value, error } = readNumber(box.value, unit);
     box.ckEdited = false;
-    const value = Number(box.value);
-    if (box.value !== "" && Number.isFinite(value)) send(value, false);
-    draw();
+    if (error) {
+      draw();
+      hint.textContent = error;
+      return;
+    }
+    send(value, false);
+    const end = value < min ? min : max;
+    if (value < min || value > max) hint.textContent = `${trim(value, digits)} is beyond the ${limits.includes(end) ? "limit" : "end"}, ${trim(end, digits)} ${unit}`;
+  });
+  box.addEventListener("keydown", (event) => {
+    const jump = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    if (event.key === "Escape") revert();
+    if (jump === undefined) return;
+    event.preventDefault();
+    box.ckEdited = false;
+    send(Number((model.get("value") + jump * (event.shiftKey ? step / 10 : step)).toFixed(9)), event.repeat);
   });
   keepKeys(box);
   name.title = "double click: reset";
@@ -115,8 +132,7 @@ function choice(model, el) {
     select.value = model.get("value");
   };
   select.addEventListener("change", () => {
-    model.set("value", select.value);
-    model.save_changes();
+    tell(model, { value: select.value });
   });
   keepKeys(select);
   el.append(element("label", { class: "ck-choice" }, element("span", { class: "ck-name" }, model.get("label")), select));
@@ -129,8 +145,7 @@ function toggle(model, el) {
   const box = element("input", { ...own, type: "checkbox" });
   const draw = () => (box.checked = model.get("value"));
   box.addEventListener("change", () => {
-    model.set("value", box.checked);
-    model.save_changes();
+    tell(model, { value: box.checked });
   });
   keepKeys(box);
   el.append(element("label", { class: "ck-toggle" }, box, element("span", {}, model.get("label"))));
@@ -140,7 +155,10 @@ function toggle(model, el) {
 
 function action(model, el) {
   const button = element("button", { ...own, type: "button", class: "ck-button" }, model.get("label"));
-  button.addEventListener("click", () => model.send({ type: "press" }));
+  button.addEventListener("click", () => {
+    model.send({ type: "press" });
+    tell(model);
+  });
   keepKeys(button);
   el.append(button);
 }
@@ -177,8 +195,7 @@ function table(model, el) {
         const radio = element("input", { ...own, type: "radio", name: group, "aria-label": `choose ${row[0]}` });
         radio.checked = i === value;
         radio.addEventListener("change", () => {
-          model.set("value", i);
-          model.save_changes();
+          tell(model, { value: i });
         });
         keepKeys(radio);
         line.prepend(element("td", {}, radio));

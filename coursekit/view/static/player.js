@@ -2,14 +2,8 @@
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
 
-function element(tag, attributes = {}, ...children) {
-  const node = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
-  node.append(...children);
-  return node;
-}
-
-// show(k) draws frame k of the motion; report(k) tells the kernel where it rests; wake() asks for animation frames.
+// show(k) draws frame k of the motion; report(k, playing) tells the kernel, which shows the same; wake() asks for
+// animation frames.
 function makePlayer({ show, report, wake }) {
   const play = element("button", { type: "button", class: "ck-button ck-play" }, "play");
   const back = element("button", { type: "button", class: "ck-button", title: "to the first pose" }, "restart");
@@ -34,6 +28,11 @@ function makePlayer({ show, report, wake }) {
   const go = (k) => {
     standAt(k);
     show(k);
+    report(k, playing);
+  };
+  const follow = (k) => {
+    standAt(k);
+    show(k);
   };
   const mark = (on) => {
     playing = on;
@@ -45,7 +44,7 @@ function makePlayer({ show, report, wake }) {
     last = null;
     due = 0;
     if (on) wake();
-    else if (motion) report(frame);
+    else if (motion) report(frame, false);
   };
   const start = () => {
     if (frame >= motion.frames - 1) go(0);
@@ -53,18 +52,16 @@ function makePlayer({ show, report, wake }) {
   };
   const step = (k) => {
     if (!motion) return;
-    setPlaying(false);
+    mark(false);
     go(Math.max(0, Math.min(motion.frames - 1, k)));
-    report(frame);
   };
 
   play.onclick = () => (playing ? setPlaying(false) : start());
   back.onclick = () => step(0);
   scrub.oninput = () => {
-    if (playing) setPlaying(false);
+    mark(false);
     go(Number(scrub.value));
   };
-  scrub.onchange = () => report(frame);
   bar.addEventListener("keydown", (event) => {
     event.stopPropagation(); // the notebook has its own meaning for these keys
     if (event.key === " " && event.target === scrub) {
@@ -76,6 +73,8 @@ function makePlayer({ show, report, wake }) {
   return {
     bar,
     playing: () => playing,
+    loaded: () => Boolean(motion),
+    frame: () => frame,
     // a new motion, or null for none; at = the frame to rest at, or play from the start
     load(next, at = null) {
       motion = next && next.frames ? next : null;
@@ -84,14 +83,18 @@ function makePlayer({ show, report, wake }) {
       scrub.max = motion.frames - 1;
       speed.value = "1";
       loop.checked = !!motion.loop;
-      go(at === null ? 0 : Math.max(0, Math.min(motion.frames - 1, at)));
-      if (at === null && motion.autoplay) setPlaying(true);
-      else mark(false);
+      const still = matchMedia("(prefers-reduced-motion: reduce)").matches; // then the end is shown at once
+      mark(false);
+      if (at !== null) return follow(Math.max(0, Math.min(motion.frames - 1, at)));
+      if (!motion.autoplay) return follow(0);
+      if (still) return go(motion.frames - 1);
+      mark(true);
+      go(0);
+      setPlaying(true);
     },
-    // the robot's own pose is shown instead: the motion waits at its start
-    leave() {
-      if (playing) mark(false);
-      if (motion) standAt(0);
+    // another view of the same model, or the kernel, shows frame k
+    follow(k) {
+      if (motion && !playing && k !== frame) follow(k);
     },
     step,
     toggle: () => motion && play.click(),
@@ -108,8 +111,8 @@ function makePlayer({ show, report, wake }) {
       if (next < motion.frames) go(next);
       else if (loop.checked) go(next % motion.frames);
       else { // the last pose is always drawn, exactly
+        mark(false);
         go(motion.frames - 1);
-        setPlaying(false);
       }
     },
   };

@@ -1,5 +1,5 @@
 // The Viewer widget: scene commands, poses and motions from the kernel in; pictures out.
-// bundle.js, stage.js, actors.js and player.js stand above this file: viewer.py joins them into one module.
+// viewer.py joins this file and those it needs, which stand above it, into one module.
 
 export default function () {
   const commands = new Map(); // key -> bytes of one meshcat command: the whole scene, for views that come later
@@ -30,14 +30,47 @@ export default function () {
     async render({ model, el, signal }) {
       const pane = element("div", { class: "ck-pane", tabindex: 0, role: "group", "aria-roledescription": "3D view",
         "data-lm-suppress-shortcuts": "true", title: "drag: turn, right drag: move, wheel after a click: zoom; keys: arrows, + and -, Home" });
-      const buttons = element("div", { class: "ck-views", role: "group", "aria-label": "views" });
+      const buttons = element("div", { ...own, class: "ck-views", role: "group", "aria-label": "views" });
       const box = element("div", { class: "ck-viewer" }, pane, buttons);
-      const text = element("div", { class: "ck-text", role: "status" });
+      const text = element("div", { class: "ck-text", "aria-live": "polite" });
+      const silence = element("div", { class: "ck-silence", role: "status" });
+      keepKeys(buttons);
+      pane.addEventListener("contextmenu", (event) => { // the right button moves the picture
+        event.preventDefault();
+        event.stopPropagation();
+      });
       box.style.height = `${model.get("height")}px`;
       const wait = element("p", { class: "ck-wait" }, "The 3D view is on its way …");
       pane.append(wait);
       el.classList.add("ck-root");
-      el.append(box);
+      el.append(box, silence);
+      const unwatch = watchKernel(model, silence);
+
+      // --- a motion: the player says which frame, whoever draws it
+      let draw = () => {}, wake = animate;
+      const player = makePlayer({
+        wake: () => wake(),
+        show(k) {
+          draw(k);
+          const lines = model.get("motion_texts");
+          text.textContent = lines.length ? lines[k] : "";
+          text.hidden = !lines.length;
+        },
+        report(k, playing) {
+          model.set("frame", k);
+          model.set("playing", playing);
+          text.setAttribute("aria-live", playing ? "off" : "polite"); // read aloud where it rests, not 30 times a second
+          if (!playing) text.textContent = `${text.textContent}`;
+          model.save_changes(); // the widgets' own throttle: while the kernel is busy the latest frame waits
+        },
+      });
+      function animate() { // where no stage draws frames
+        requestAnimationFrame((now) => {
+          player.tick(now);
+          if (player.playing()) animate();
+        });
+      }
+      el.append(player.bar, text);
 
       let MeshCat, stage;
       try {
@@ -46,7 +79,12 @@ export default function () {
         wait.remove();
         stage = makeStage(MeshCat, pane, model.get("quality"));
       } catch (error) {
-        return showPicture(model, pane, views, error);
+        const end = showPicture(model, pane, views, player, error);
+        return () => {
+          unwatch();
+          end();
+          el.replaceChildren();
+        };
       }
       const { viewer } = stage;
       const labels = makeLabels(MeshCat.THREE, viewer, pane, stage.renderer);
@@ -55,48 +93,52 @@ export default function () {
       stage.resized = camera.fit;
 
       // --- poses: the latest one wins and is drawn once; a motion draws its own
-      let moving = [], pose = null, poses = null;
-      const place = (floats, k) => {
-        moving.forEach((path, i) => {
-          const at = 16 * (k * moving.length + i);
+      let moving = [], pose = null; // what moves, and where it stands
+      let played = [], poses = null; // what a motion moves, and where, frame after frame
+      const place = (paths, floats, k) => {
+        paths.forEach((path, i) => {
+          const at = 16 * (k * paths.length + i);
           if (at + 16 <= floats.length) viewer.set_transform(path, floats.subarray(at, at + 16));
         });
         stage.moved();
       };
-      const player = makePlayer({
-        wake: stage.wake,
-        show(k) {
-          place(poses, k);
-          const lines = model.get("motion_texts");
-          text.textContent = lines.length ? lines[k] : "";
-          text.hidden = !lines.length;
-        },
-        report(k) {
-          model.set("frame", k);
-          model.save_changes();
-        },
+      let slid = false;
+      const follower = makeFollower(model, () => {
+        player.load(null); // a hand on a slider ends a motion
+        slid = true;
+        stage.moved();
       });
+      wake = stage.wake;
+      draw = (k) => {
+        place(played, poses, k);
+        const thetas = model.get("motion_theta"); // of a page without a kernel, which would put the sliders there
+        if (thetas) follower.put(thetas[k]);
+      };
       stage.playing = player.playing;
       stage.beforeFrame.push((now) => {
-        if (pose) place(pose, 0);
+        if (pose) place(moving, pose, 0);
+        if ((pose || slid) && follower.isAhead()) place(...follower.pose(), 0);
+        else if (pose && player.loaded()) place(played, poses, player.frame()); // further than the kernel knows
         pose = null;
+        slid = false;
         player.tick(now);
       });
       stage.afterFrame.push(labels.place);
-      el.append(player.bar, text);
 
       const onPose = () => {
         moving = model.get("moving").map(splitPath);
-        if (model.get("frame") >= 0) return;
-        player.leave();
-        text.hidden = true;
+        if (model.get("frame") >= 0) player.follow(model.get("frame"));
+        else text.hidden = true;
+        follower.compare();
         pose = floatsOf(model.get("pose"));
         stage.moved();
       };
       const onMotion = (at) => {
         poses = floatsOf(model.get("motion_poses"));
+        played = (model.get("motion").moving || []).map(splitPath);
         text.hidden = true;
-        player.load(model.get("motion"), at);
+        player.load(model.get("motion"), at); // or nothing, where there is none any more
+        onPose();
       };
       const onGhosts = () => {
         drawGhosts(model.get("ghosts"));
@@ -107,10 +149,10 @@ export default function () {
         viewer.set_dirty();
       };
       const onCamera = () => {
-        camera.lens(model.get("camera").size || 1);
+        camera.lens(model.get("camera"));
         buttons.replaceChildren();
         for (const [name, where] of Object.entries(model.get("views"))) {
-          const button = element("button", { type: "button", class: "ck-button", title: `${name} view` }, name);
+          const button = element("button", { ...own, type: "button", class: "ck-button", title: `${name} view` }, name);
           button.onclick = () => camera.show(where);
           buttons.append(button);
         }
@@ -135,9 +177,8 @@ export default function () {
               console.error("[coursekit] a command of the scene failed", error); // and the rest is drawn all the same
             }
           }
-          const sources = model.get("ghosts").map((ghost) => ghost.src);
-          if (sources.length) drawGhosts(model.get("ghosts")); // their geometry may have been replaced
-          stage.moved();
+          if (model.get("ghosts").length) drawGhosts(model.get("ghosts")); // their geometry may have been replaced
+          onPose(); // what was drawn anew stands at the origin until it is placed
         },
         picture() {},
       };
@@ -147,18 +188,18 @@ export default function () {
       onCamera();
       onText();
       onPose();
-      if (model.get("motion").frames) onMotion(Math.max(0, model.get("frame")));
-      else player.load(null);
-      if (model.get("frame") < 0) onPose();
+      onMotion(Math.max(0, model.get("frame")));
       views.add(view);
 
-      const changes = { pose: onPose, moving: onPose, frame: onPose, labels: onLabels, ghosts: onGhosts, camera: onCamera, description: onText,
+      const changes = { pose: onPose, theta: onPose, moving: onPose, frame: onPose, labels: onLabels, ghosts: onGhosts, camera: onCamera, description: onText,
         motion: () => onMotion(null), height: () => (box.style.height = `${model.get("height")}px`) };
       for (const [name, act] of Object.entries(changes)) model.on(`change:${name}`, act);
-      box.coursekit = { stage, viewer, player, page: page() }; // for the browser's console and the tests
+      box.coursekit = { stage, viewer, player, follower, page: page() }; // for the browser's console and the tests
 
       return () => { // the notebook keeps `el` and `model` of what is long gone: nothing may hang on them
         for (const [name, act] of Object.entries(changes)) model.off(`change:${name}`, act);
+        unwatch();
+        follower.end();
         delete box.coursekit;
         el.replaceChildren();
         views.delete(view);
@@ -180,7 +221,7 @@ function keys(key, camera, player, home) {
 }
 
 // No WebGL, or a policy that forbids the bundle: the picture the kernel draws, renewed at most twice a second.
-function showPicture(model, pane, views, error) {
+function showPicture(model, pane, views, player, error) {
   const image = element("img", { class: "ck-picture", alt: model.get("description") });
   const reason = /WebGL/i.test(error.message) ? "this browser has no WebGL" : error.message;
   pane.replaceChildren(image, element("p", { class: "ck-wait" }, `A still picture in place of the 3D view: ${reason}.`));
@@ -199,8 +240,52 @@ function showPicture(model, pane, views, error) {
       image.alt = model.get("description");
     },
   };
+  const onMotion = () => player.load(model.get("motion"));
   views.add(view);
   model.on("change:pose", ask);
+  model.on("change:motion", onMotion);
+  onMotion();
   ask();
-  return () => views.delete(view);
+  return () => {
+    clearTimeout(timer);
+    model.off("change:pose", ask);
+    model.off("change:motion", onMotion);
+    views.delete(view);
+  };
+}
+
+// The kernel answers every change of a control. Where it does not, because it is busy, restarted or gone, somebody has
+// to say so: sliders go on moving.
+function watchKernel(model, line) {
+  const PATIENCE = 2500; // milliseconds
+  let timer = null, over = false, forget = () => {};
+  const asked = () => {
+    timer = timer || setTimeout(() => {
+      line.textContent = "The kernel does not answer: it is busy, was restarted or is gone. "
+        + "Numbers and plots are those of before; run the cell again if it stays so.";
+    }, PATIENCE);
+  };
+  const answered = () => {
+    clearTimeout(timer);
+    timer = null;
+    line.textContent = "";
+  };
+  model.on("change:answers", answered);
+  childModels(model, "controls").then((controls) => {
+    if (over) return;
+    for (const control of controls) control.on("change:touched", asked);
+    forget = () => controls.forEach((control) => control.off("change:touched", asked));
+  });
+  return () => {
+    over = true;
+    answered();
+    forget();
+    model.off("change:answers", answered);
+  };
+}
+
+// The models behind a trait that holds references to widgets.
+function childModels(model, name) {
+  const ids = model.get(name) || [];
+  return Promise.all(ids.map((id) => model.widget_manager.get_model(id.replace("IPY_MODEL_", ""))));
 }

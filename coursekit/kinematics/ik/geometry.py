@@ -14,14 +14,13 @@ from functools import lru_cache
 
 import numpy as np
 
-from . import lie
-from .robot import Robot
-
-SAME = 1e-10  # directions (rad) and points (m) that differ by less are the same: rounding of S and M
+from .. import lie
+from ..axes import SAME, across, directions_of, parallel, perpendicular, points_on, sine, wrist
+from ..robot import Robot
 
 
 @dataclass(frozen=True, eq=False)
-class Planar:
+class TwoHinges:
     """Two parallel hinges, seen along them: coordinates (forward, left) from axis 1."""
 
     frame: np.ndarray  # (4, 4) pose of the arm's frame in the space frame
@@ -34,7 +33,7 @@ class Planar:
 
 
 @dataclass(frozen=True, eq=False)
-class Arm:
+class SixHinges:
     """Six hinges: coordinates (forward, up, side) in the frame of the arm, side = forward cross up.
 
     The origin is the point of axis 1 that is as high as axis 2. The point P is the wrist centre for
@@ -64,25 +63,25 @@ class Arm:
 
 
 @lru_cache(maxsize=64)  # of a frozen Robot, by identity
-def geometry(robot: Robot) -> Planar | Arm:
-    """Planar or Arm of a robot; a ValueError names the first condition that fails."""
-    for i, (kind, s) in enumerate(zip(robot.joint_types, robot.S.T, strict=True)):
-        if kind != "revolute" or abs(s[:3] @ s[3:]) > SAME:
+def geometry(robot: Robot) -> TwoHinges | SixHinges:
+    """TwoHinges or SixHinges of a robot; a ValueError names the first condition that fails."""
+    for i, (kind, slide) in enumerate(zip(robot.joint_types, robot.links.slides, strict=True)):
+        if slide:
             what = "a screw with a pitch" if kind == "revolute" else kind
             _refuse(robot, f"joint {i + 1} is {what}, and only hinges are covered")
     if robot.n == 2:
-        return _planar(robot)
+        return _two_hinges(robot)
     if robot.n > 6:
         _refuse(robot, f"it has {robot.n} joints: redundant, so a pose leaves {robot.n - 6} of them free")
     if robot.n != 6:
         _refuse(robot, f"it has {robot.n} joints, not 6 (or 2, planar)")
-    return _arm(robot)
+    return _six_hinges(robot)
 
 
-def _planar(robot):
-    w, q = _axes(robot)
+def _two_hinges(robot):
+    w, q = directions_of(robot.S), points_on(robot.S)
     _parallel(robot, w, 1, 2)
-    side, out = w[0], _across(w[0], q[1] - q[0])
+    side, out = w[0], across(w[0], q[1] - q[0])
     length = np.linalg.norm(out)
     if length < SAME:
         _refuse(robot, "axes 1 and 2 coincide")
@@ -91,23 +90,17 @@ def _planar(robot):
     fore = tool[0] - length, tool[1]
     if np.hypot(*fore) < SAME:
         _refuse(robot, "the tool point lies on axis 2")
-    return Planar(frame, (1.0, _sign(w[1] @ side)), (length, 0.0), tuple(map(float, fore)), float(tool[2]))
+    return TwoHinges(frame, (1.0, _sign(w[1] @ side)), (length, 0.0), tuple(map(float, fore)), float(tool[2]))
 
 
-def _arm(robot):
-    w, q = _axes(robot)
+def _six_hinges(robot):
+    w, q = directions_of(robot.S), points_on(robot.S)
     _parallel(robot, w, 2, 3)
     _perpendicular(robot, w, 1, 2)
-    point, miss = _meeting_point(w[3:], q[3:])
-    family = "spherical"
-    if miss > SAME:
-        if np.linalg.norm(np.cross(w[2], w[3])) > SAME:
-            text = f"axes 4, 5 and 6 miss a common point by {miss:.3g} m (no spherical wrist)"
-            _refuse(robot, f"{text}, and axes 2, 3 and 4 are not parallel either")
-        family = "parallel"
-        point, miss = _meeting_point(w[4:], q[4:])
-        if miss > SAME:
-            _refuse(robot, f"axes 5 and 6 do not meet: they miss a common point by {miss:.3g} m")
+    try:
+        family, point = wrist(q, w)
+    except ValueError as reason:
+        _refuse(robot, reason)
     _perpendicular(robot, w, 4, 5)
     _perpendicular(robot, w, 5, 6)
 
@@ -135,7 +128,7 @@ def _arm(robot):
     needed = np.zeros((4, 3))  # in the tool frame: the point P and the directions of axes 6 and 5
     needed[:, 0] = tool @ [*point, 1]
     needed[:3, 1:] = tool[:3, :3] @ w[[5, 4]].T
-    return Arm(
+    return SixHinges(
         family=family,
         frame=frame,
         signs=signs,
@@ -155,7 +148,7 @@ def _arm(robot):
 def _arm_frame(w, q, point):
     """Up: along axis 1, whichever way is nearer to the z of the space frame. Forward: where P is at zero."""
     up = w[0] if w[0, 2] > -SAME else -w[0]
-    side = w[1] - up * (up @ w[1])  # perpendicular to rounding
+    side = across(up, w[1])
     side = side / np.linalg.norm(side)
     forward = np.cross(up, side)
     ahead = [forward @ (x - q[0]) for x in (point, q[1])]
@@ -174,39 +167,19 @@ def _coordinates(frame, x):
     return frame[:3, :3].T @ (x - frame[:3, 3])
 
 
-def _axes(robot):
-    """Directions (n, 3) of the axes and on each the point nearest the origin (n, 3)."""
-    w, v = robot.S[:3].T, robot.S[3:].T
-    return w, np.cross(w, v)
-
-
-def _meeting_point(w, q):
-    """The point nearest to some lines (least squares) and its largest distance from one of them."""
-    across = np.eye(3) - w[:, :, None] * w[:, None, :]
-    point = np.linalg.lstsq(across.reshape(-1, 3), (across @ q[:, :, None]).ravel(), rcond=None)[0]
-    return point, np.linalg.norm((across @ (point - q)[:, :, None])[..., 0], axis=-1).max()
-
-
-def _across(w, x):
-    return x - w * (w @ x)
-
-
 def _sign(x):
     return -1.0 if x < 0 else 1.0
 
 
 def _parallel(robot, w, i, j):
-    sine = np.linalg.norm(np.cross(w[i - 1], w[j - 1]))
-    if sine > SAME:
-        _refuse(
-            robot, f"axes {i} and {j} are not parallel ({np.degrees(np.arcsin(min(sine, 1))):.3g} deg apart)"
-        )
+    if not parallel(w[i - 1], w[j - 1]):
+        apart = np.degrees(np.arcsin(min(sine(w[i - 1], w[j - 1]), 1)))
+        _refuse(robot, f"axes {i} and {j} are not parallel ({apart:.3g} deg apart)")
 
 
 def _perpendicular(robot, w, i, j):
-    cosine = w[i - 1] @ w[j - 1]
-    if abs(cosine) > SAME:
-        between = np.degrees(np.arccos(np.clip(cosine, -1, 1)))
+    if not perpendicular(w[i - 1], w[j - 1]):
+        between = np.degrees(np.arccos(np.clip(w[i - 1] @ w[j - 1], -1, 1)))
         _refuse(robot, f"axes {i} and {j} are not perpendicular ({between:.6g} deg between them)")
 
 

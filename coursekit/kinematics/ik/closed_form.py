@@ -1,6 +1,6 @@
 """Inverse kinematics in closed form: every configuration that reaches a pose, and why the others do not.
 
-The derivation is in ik_steps, what it needs of an arm in ik_geometry.
+The derivation is in steps, what it needs of an arm in geometry.
 Sources: TPK4170 report 2021, section 4; RPI mini project 3 (2021); Robotics I exam, 17 June 2019, ex. 1d.
 """
 
@@ -10,9 +10,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import checks
-from .ik_geometry import Planar, geometry
-from .ik_steps import (
+from .. import checks
+from ..robot import Robot
+from .geometry import TwoHinges, geometry
+from .steps import (
     OFF_PLANE,
     elbow,
     needed,
@@ -24,7 +25,6 @@ from .ik_steps import (
     undo_joint1,
     without_hand,
 )
-from .robot import Robot
 
 CHUNK = 2048  # poses per block: the working set stays in the cache
 
@@ -122,12 +122,12 @@ def analytic(robot: Robot, T: ArrayLike) -> Solutions:
     g = geometry(robot)
     T = checks.pose(T, f"{robot.name}: T")
     flat = T.reshape(-1, 4, 4)
-    planar = isinstance(g, Planar)
+    planar = isinstance(g, TwoHinges)
     # reach, elbow, wrist, joint, pose: the poses come last in memory, because every step runs along them
     theta = np.empty((1, 2, 1, 2, len(flat)) if planar else (2, 2, 2, 6, len(flat)))
     for start in range(0, len(flat), CHUNK):
         block = slice(start, start + CHUNK)
-        if isinstance(g, Planar):
+        if isinstance(g, TwoHinges):
             solve_planar(g, flat[block], theta[..., block])
         else:
             solve(g, flat[block], theta[..., block])
@@ -168,7 +168,7 @@ def wrist_centre(robot: Robot, T: ArrayLike) -> np.ndarray:
 
 def _spherical(robot, function):
     g = geometry(robot)
-    if isinstance(g, Planar) or g.family != "spherical":
+    if isinstance(g, TwoHinges) or g.family != "spherical":
         raise ValueError(
             f"{robot.name}: {function} needs a spherical wrist: axes 4, 5 and 6 through one point"
         )
@@ -183,7 +183,7 @@ def _why_missing(robot, T):
     g = geometry(robot)
     if np.isnan(T).any():
         return ("the pose holds NaN",) * len(g.branches)
-    if isinstance(g, Planar):
+    if isinstance(g, TwoHinges):
         x, y, height = g.frame[:3, :3].T @ (T[:3, 3] - g.frame[:3, 3])
         if abs(height - g.height) > OFF_PLANE:
             return (f"the tool point would be {abs(height - g.height):.3g} m off the plane of the arm",) * 2

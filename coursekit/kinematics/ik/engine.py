@@ -1,5 +1,6 @@
 """The engine of the numeric inverse kinematics: from a configuration to the Jacobian and the error, and on.
 
+It goes the same way, step by step, as the plain loop `iteration.by_the_book`, which says what is meant.
 The methods are written with J_b and e = log(T_sb^-1 T_sd). Here both are taken along the axes of the space
 frame, about the tool point: diag(R, R) J_b and diag(R, R) e. No step notices: J^+ e, J^T e and
 J^T (J J^T + k^2 I)^-1 e stay as they are when J and e are turned together.
@@ -10,13 +11,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
-from itertools import accumulate
 
 import numpy as np
 
-from . import lie
-from .robot import Robot
+from .. import lie
+from ..axes import cross
+from ..robot import Robot
 
 CHUNK = 2048  # targets per block: the working set stays in the cache
 NEAR_PI = 1e-6  # rad; closer than this to half a turn the rotation vector is taken from the quaternion
@@ -151,13 +151,13 @@ def closest(robot: Robot, goals: np.ndarray, theta: np.ndarray, tol: float, rows
     theta = np.where(hinges, np.remainder(theta + np.pi, 2 * np.pi) - np.pi, theta)
     here, damping2 = see(theta), np.full(len(theta), 1e-2)
     with np.errstate(all="ignore"):
-        for _ in range(DOWNHILL):
+        for k in range(DOWNHILL + 1):
             theta, Jt, e, error, score = here
             H = np.swapaxes(Jt, -1, -2) @ Jt + damping2[:, None, None] * np.eye(Jt.shape[-1])
             step = (Jt @ np.linalg.solve(H, e[..., None]))[..., 0]
             gain = (step * (Jt @ e[..., None])[..., 0]).sum(axis=-1)  # what the step promises, to first order
             done = (error[:, used.start // 3 :] < tol).all(axis=-1)
-            if (done | (gain < SETTLED * score)).all():
+            if k == DOWNHILL or (done | (gain < SETTLED * score)).all():
                 break
             there = see(theta + step)
             good = there[-1] < score
@@ -178,29 +178,17 @@ def look(robot: Robot, theta: np.ndarray, goal: np.ndarray | list) -> tuple:
     tool to the goal, all along the space frame. For one target, theta (n,) and goal = `_numbers` of its pose,
     arrays (N,) become plain numbers: the formulas are the same, `math` takes the place of numpy.
     """
-    one, n = theta.ndim == 1, theta.shape[-1]
-    start, constants = _links(robot)
-    t = theta.reshape(-1, n).T
-    basis = np.empty((*t.shape, 4))
-    basis[..., 0], basis[..., 1], basis[..., 2], basis[..., 3] = 1, np.sin(t), np.cos(t), t
-    E = (basis @ constants).reshape(*t.shape, 4, 4)
-    F = np.empty((n + 1, *E.shape[1:]))  # link frames with z along the joint axis, and the tool frame
-    F[0] = start
-    for k in range(n):
-        np.matmul(F[k], E[k], out=F[k + 1])
-    *frames, (x, y, z, p) = _numbers(F[:, 0]) if one else _arrays(F)
-
-    # Column i of J: (z, z cross (p - q)) with z and origin q of the frame on axis i; (0, z) where it slides.
-    J = np.array([[*z, *_cross(z, _minus(p, q))] for _, _, z, q in frames])
-    if not one:
-        J = np.ascontiguousarray(np.moveaxis(J, -1, 0))
-    for i in np.flatnonzero(robot._slides) if any(robot._slides) else ():
-        along = robot._slides[i] * J[..., i, :3]
-        if robot.joint_types[i] == "revolute":
-            J[..., i, 3:] += along
-        else:
-            J[..., i, 3:], J[..., i, :3] = along, 0
-    return J, *_error((x, y, z, p), goal, math if one else np)
+    if theta.ndim == 2:
+        J, tool = robot.links.screws(theta.T)
+        J[3:] += cross(J[:3], tool[3][:, None])
+        return np.ascontiguousarray(J.T), *_error(tool, goal, np)
+    *frames, tool = (frame[:, :, 0].tolist() for frame in robot.links.along(theta[:, None]))
+    # the same in plain numbers: column i of J is (z; (o - p) x z), (0; z) where it slides
+    J = np.array([[*z, *cross(_minus(o, tool[3]), z)] for _, _, z, o in frames])
+    for i in robot.links.sliding:
+        turns, along = robot.links.turns[i], robot.links.slides[i] * J[i, :3]
+        J[i, 3:], J[i, :3] = J[i, 3:] * turns + along, J[i, :3] * turns
+    return J, *_error(tool, goal, math)
 
 
 def _error(tool, goal, m):
@@ -211,7 +199,7 @@ def _error(tool, goal, m):
     v = p - 1/2 w x p + D w x (w x p) with D = (1 - t/2 cot t/2) / t^2 (Lynch & Park, eq. 3.92).
     """
     (x, y, z, p), (x_d, y_d, z_d, p_d) = tool, goal
-    twice_sine = _plus(_plus(_cross(x, x_d), _cross(y, y_d)), _cross(z, z_d))
+    twice_sine = _plus(_plus(cross(x, x_d), cross(y, y_d)), cross(z, z_d))
     length = m.sqrt(_dot(twice_sine, twice_sine))
     trace = _dot(x, x_d) + _dot(y, y_d) + _dot(z, z_d)
     angle = m.atan2(length, trace - 1)
@@ -221,8 +209,8 @@ def _error(tool, goal, m):
     if half_turn if m is math else half_turn.any():  # twice_sine has lost its direction
         omega = _from_quaternion(half_turn, omega, tool, goal)
     gap = _minus(p_d, p)
-    once = _cross(omega, gap)
-    twice = _cross(omega, once)
+    once = cross(omega, gap)
+    twice = cross(omega, once)
     # t/2 cot t/2 = t/2 (1 + cos t) / sin t
     D = (1 - 0.5 * k * (trace + 1)) / (angle * angle + TINY)
     v = _plus(gap, _plus(_times(-0.5, once), _times(D, twice)))
@@ -251,10 +239,6 @@ def _dot(a, b):
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def _cross(a, b):
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-
-
 def _plus(a, b):
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
@@ -265,15 +249,3 @@ def _times(k, a):
 
 def _minus(a, b):
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
-
-
-@lru_cache(maxsize=64)  # of a frozen Robot, by identity
-def _links(robot):
-    """A_1 (4, 4) and constants (n, 4, 16) of A_i^-1 e^[S_i]t A_(i+1): frames at zero with z along the axes.
-
-    A_(n+1) is M: A_1 and all these links multiply to T. Constants of (1, sin t, cos t, t), as in Robot.
-    """
-    frames = [*accumulate(robot._axis_steps, np.matmul), robot.M]
-    K = robot._exponentials.reshape(robot.n, 4, 4, 4)
-    links = [lie.inverse(a) @ k @ b for a, k, b in zip(frames[:-1], K, frames[1:], strict=True)]
-    return frames[0], np.array(links).reshape(robot.n, 4, 16)

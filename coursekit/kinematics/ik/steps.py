@@ -1,6 +1,6 @@
 """The steps of the analytic inverse kinematics, for many poses at once.
 
-In the frame of the arm (see ik_geometry) each step is one of the subproblems in a plane:
+In the frame of the arm (see geometry) each step is one of the subproblems in a plane:
 
     joint 1        turns P until its side coordinate is what it was at theta = 0      subproblem 4
     joint 3        makes shoulder and P as far apart as they must be                  subproblem 3
@@ -17,8 +17,8 @@ pose), of length 1 where a step makes no difference.
 
 import numpy as np
 
-from .ik_geometry import Arm, Planar
-from .subproblems import NOTHING, Number, Pair, angle, swing, turn, undo, unit
+from ..subproblems import NOTHING, Number, Pair, angle, swing, turn, undo, unit
+from .geometry import SixHinges, TwoHinges
 
 Direction = tuple[Number, Number, Number]  # (forward, up, side) in the frame of the arm
 
@@ -30,7 +30,7 @@ ELBOW = np.array([[-1.0, 1.0], [1.0, -1.0]]).reshape(2, 2, 1, 1)  # up and down 
 WRIST = np.array([1.0, -1.0]).reshape(1, 1, 2, 1)  # no-flip, flip
 
 
-def solve(g: Arm, T: np.ndarray, out: np.ndarray) -> None:
+def solve(g: SixHinges, T: np.ndarray, out: np.ndarray) -> None:
     """All branches for T (N, 4, 4) into out (2, 2, 2, 6, N)."""
     P, axis6, axis5 = needed(g, T)
     t1, target = reach(g, P)
@@ -46,13 +46,13 @@ def solve(g: Arm, T: np.ndarray, out: np.ndarray) -> None:
     store(out, g, (t1, t2, t3, t4, t5, t6))
 
 
-def needed(g: Arm, T: np.ndarray) -> np.ndarray:
+def needed(g: SixHinges, T: np.ndarray) -> np.ndarray:
     """P and the directions of axes 6 and 5 that T asks for: (forward, up, side) each, in the arm's frame."""
     numbers = g.of_pose @ T.reshape(-1, 16).T
     return numbers.reshape(3, 3, 1, 1, 1, -1).swapaxes(0, 1)
 
 
-def reach(g: Arm, P: np.ndarray) -> tuple[Pair, Pair]:
+def reach(g: SixHinges, P: np.ndarray) -> tuple[Pair, Pair]:
     """Joint 1, and P in the plane of the arm as seen from axis 2.
 
     Undoing joint 1 must give P the side coordinate that it had at theta = 0:
@@ -63,7 +63,7 @@ def reach(g: Arm, P: np.ndarray) -> tuple[Pair, Pair]:
     return t1, (t1[0] * forward - t1[1] * side - g.shoulder, up)
 
 
-def elbow(g: Arm | Planar, target: Pair, side: np.ndarray = ELBOW) -> tuple[Pair, Pair]:
+def elbow(g: SixHinges | TwoHinges, target: Pair, side: np.ndarray = ELBOW) -> tuple[Pair, Pair]:
     """Joints 2 and 3 that bring the forearm's end to the target: rot(t2)(upper + rot(t3) fore) = target."""
     upper, fore = g.upper, g.fore
     c = 0.5 * (square(target) - square(upper) - square(fore))  # = upper . rot(t3) fore, the law of cosines
@@ -96,7 +96,7 @@ def _wrist(g, axis6, axis5, free=lambda: (1.0, 0.0)):
 
 
 def without_hand(
-    g: Arm, target: Pair, axis6: Direction, axis5: Direction
+    g: SixHinges, target: Pair, axis6: Direction, axis5: Direction
 ) -> tuple[Pair, tuple[Pair, Pair, Pair]]:
     """Three parallel axes: the sum of joints 2, 3 and 4, joints 5 and 6, and where that leaves axis 4."""
     t234, t5, t6 = _wrist(g, axis6, axis5, lambda: _free_hand(g, target))
@@ -124,14 +124,14 @@ def _undo_arm(t23, x):
     return *turn(undo(t23), x[0], x[1]), x[2]
 
 
-def store(out: np.ndarray, g: Arm | Planar, turns: tuple[Pair, ...]) -> None:
+def store(out: np.ndarray, g: SixHinges | TwoHinges, turns: tuple[Pair, ...]) -> None:
     """Turns (cos, sin) in the frame of the arm -> joint angles in out (reach, elbow, wrist, joint, pose)."""
     missing = 0.0 * turns[1][0]  # NaN where joint 2 cannot reach: then no joint has an angle
     for joint, t in enumerate(turns):
         out[:, :, :, joint] = angle(_signed(t, g.signs[joint])) + missing
 
 
-def solve_planar(g: Planar, T: np.ndarray, out: np.ndarray) -> None:
+def solve_planar(g: TwoHinges, T: np.ndarray, out: np.ndarray) -> None:
     """Both branches for T (N, 4, 4) into out (1, 2, 1, 2, N)."""
     x, y, height = ((T[:, :3, 3] - g.frame[:3, 3]) @ g.frame[:3, :3]).T.reshape(3, 1, 1, 1, -1)
     x = np.where(np.abs(height - g.height) > OFF_PLANE, np.nan, x)

@@ -7,15 +7,16 @@ the answer keeps them.
 Sources: Lynch & Park, Modern Robotics (2017), section 6.2; Panda programming assignment.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import checks
-from .ik_iterate import Step, closest, iterate
-from .robot import Robot
+from .. import checks, lie
+from ..robot import Robot
+from .engine import Step, closest, iterate
 
 CONVERGED = "converged"
 LIMIT = "iteration limit: still coming nearer"
@@ -26,7 +27,8 @@ NOT_A_NUMBER = "not a number"
 
 IDENTITY = np.eye(6)
 SINGULAR = 1e-12  # singular values below this share of the largest are rounding, and count as 0
-SHRINK = 1e-2  # damping without a number: k = SHRINK |e|, so that it vanishes at the solution
+SHRINK = 1e-2  # damping without a number: k = SHRINK |e|, so that it all but vanishes at the solution
+LEAST = 1e-7  # but never less than this: enough for J J^T + k^2 I to have an inverse at a singular pose
 LONGEST = 0.8  # rad; no joint moves further in one step of that method
 
 
@@ -103,6 +105,35 @@ def _step_arguments(J: ArrayLike, e: ArrayLike) -> tuple[np.ndarray, np.ndarray]
     if J.ndim < 2 or J.shape[-2:-1] != e.shape[-1:]:
         raise ValueError(f"J must be (..., m, n) and e (..., m), got {J.shape} and {e.shape}")
     return J, e
+
+
+def by_the_book(
+    robot: Robot,
+    T: np.ndarray,
+    theta: np.ndarray,
+    step: Callable[[np.ndarray, np.ndarray], np.ndarray] = newton_step,
+    max_iterations: int = 50,
+    tol: float = 1e-10,
+) -> tuple[np.ndarray, int]:
+    """The loop itself, for one target T (4, 4), as the book writes it. -> (theta (n,), number of steps).
+
+    The methods below do the same for many targets at once, in a fraction of the time, and say what came of
+    it. Source: Lynch & Park, section 6.2.2.
+
+    >>> from coursekit import ik, robots
+    >>> kr6 = robots.kuka_kr6()
+    >>> theta, steps = ik.by_the_book(kr6, kr6.fk([2, -1, -1, 2.5, 0.6, 0]), np.array([2, -1, -1, 2, 0.5, 0]))
+    >>> (theta.round(6) + 0.0).tolist(), steps
+    ([2.0, -1.0, -1.0, 2.5, 0.6, 0.0], 4)
+    """
+    for k in range(max_iterations):
+        T_sb = robot.fk(theta)
+        e = lie.log6(lie.inverse(T_sb) @ T)  # the body twist that would carry the tool to T in unit time
+        angle, distance = np.linalg.norm(e[:3]), np.linalg.norm(T[:3, 3] - T_sb[:3, 3])
+        if max(angle, distance) < tol:
+            return theta, k
+        theta = theta + step(robot.jacobian_body(theta), e)
+    return theta, max_iterations
 
 
 def newton(
@@ -193,7 +224,7 @@ def damped_least_squares(
     """
     if damping is not None and not damping > 0:
         raise ValueError(f"{robot.name}: damping must be positive (or None), got {damping}")
-    _whole(robot, restarts, "restarts")
+    check_settings(robot, tol, rows, restarts=restarts)
     rule = _careful_step if damping is None else lambda J, e: dls_step(J, e, damping)
     if max_iterations is None:
         max_iterations = 1000 if damping is not None else 20 if restarts else 50
@@ -202,17 +233,13 @@ def damped_least_squares(
 
 def _careful_step(J, e):
     """dls_step with damping in proportion to the error, and no joint further than LONGEST."""
-    step = dls_step(J, e, SHRINK * np.sqrt((e * e).sum(axis=-1)))
+    step = dls_step(J, e, np.maximum(SHRINK * np.sqrt((e * e).sum(axis=-1)), LEAST))
     return step / np.maximum(np.abs(step).max(axis=-1, keepdims=True) / LONGEST, 1.0)
 
 
 def _solve(robot, T, theta0, rule, max_iterations, tol, rows, restarts=0, rng=None):
     """Check, flatten the batch, iterate, try again, and say what came of it."""
-    if rows not in ("all", "linear"):
-        raise ValueError(f'{robot.name}: rows must be "all" or "linear", got {rows!r}')
-    _whole(robot, max_iterations, "max_iterations")
-    if not tol > 0:
-        raise ValueError(f"{robot.name}: tol must be positive, got {tol}")
+    check_settings(robot, tol, rows, max_iterations=max_iterations)
     T = checks.pose(T, f"{robot.name}: T")
     theta0 = checks.joint_angles(theta0, robot.n, robot.name)
     try:
@@ -259,9 +286,15 @@ def _solve(robot, T, theta0, rule, max_iterations, tol, rows, restarts=0, rng=No
     )
 
 
-def _whole(robot, number, name):
-    if number != int(number) or number < 0:
-        raise ValueError(f"{robot.name}: {name} must be 0 or a positive whole number, got {number}")
+def check_settings(robot: Robot, tol: float, rows: str, **counts: float) -> None:
+    """A ValueError for settings that make no sense, with the robot's name."""
+    if rows not in ("all", "linear"):
+        raise ValueError(f'{robot.name}: rows must be "all" or "linear", got {rows!r}')
+    for name, number in counts.items():
+        if number != int(number) or number < 0:
+            raise ValueError(f"{robot.name}: {name} must be 0 or a positive whole number, got {number}")
+    if not tol > 0:
+        raise ValueError(f"{robot.name}: tol must be positive, got {tol}")
 
 
 def _random_guess(robot, count, rng):

@@ -3,12 +3,15 @@
 analytic, arm, wrist_centre                        every branch, with limits and reasons
 newton, transpose, damped_least_squares            one solution from a guess, with a history
 newton_step, transpose_step, dls_step              one step of each
+by_the_book                                        the loop around such a step, in its plainest form
+search                                             distinct solutions of any arm, from random starts
 """
 
-from .ik_analytic import Solutions, analytic, arm, wrist_centre
-from .ik_iterate import Step
-from .ik_numeric import (
+from .closed_form import Solutions, analytic, arm, wrist_centre
+from .engine import Step
+from .iteration import (
     Numeric,
+    by_the_book,
     damped_least_squares,
     dls_step,
     newton,
@@ -16,17 +19,21 @@ from .ik_numeric import (
     transpose,
     transpose_step,
 )
+from .search import Found, search
 
 __all__ = [
+    "Found",
     "Numeric",
     "Solutions",
     "Step",
     "analytic",
     "arm",
+    "by_the_book",
     "damped_least_squares",
     "dls_step",
     "newton",
     "newton_step",
+    "search",
     "transpose",
     "transpose_step",
     "wrist_centre",

@@ -1,0 +1,25 @@
+"""Which cell of the notebook shows which panel: running a cell again closes what it showed before."""
+
+import contextlib
+from typing import Any
+
+SHOWN: dict[Any, tuple] = {}  # panel -> (name, cell, run of the cell)
+
+
+def running() -> tuple[str | None, str | None]:
+    """The notebook cell that runs now, and which of its runs this is, where the front end tells it."""
+    with contextlib.suppress(Exception):
+        from IPython import get_ipython
+
+        parent = get_ipython().kernel.get_parent()
+        return parent["metadata"]["cellId"], parent["header"]["msg_id"]
+    return None, None
+
+
+def take_place(panel: Any) -> None:
+    """Close the panels of this name that earlier runs of the cell have shown; this run may show several."""
+    cell, run = running()
+    for other, (name, its_cell, its_run) in list(SHOWN.items()):
+        if (name, its_cell) == (panel.name, cell) and (cell is None or its_run != run):
+            other.close()
+    SHOWN[panel] = panel.name, cell, run

@@ -1,0 +1,106 @@
+"""Explorers of a saved notebook, where no kernel has them: from the stored line of text to a page that moves.
+
+A notebook stores a picture and one line of an explorer, and nothing else: "Explorer of screws: KUKA KR6 R900
+sixx: joints (...) deg; tool at ...". The line names the explorer, the arm and its pose, so the page can be
+made again: by the server for JupyterLab (its part there is static/lab), by nbconvert for
+
+    jupyter nbconvert --to coursekit notebooks/01_dh_vs_poe.ipynb
+"""
+
+import asyncio
+import functools
+import html
+import re
+from typing import Any
+
+import numpy as np
+from jupyter_server.base.handlers import JupyterHandler
+from jupyter_server.utils import url_path_join
+from nbconvert.exporters import HTMLExporter
+from nbformat import NotebookNode
+from tornado import web
+
+EXPLORERS = {  # title -> function of coursekit.view
+    "Explorer of DH and PoE": "explore",
+    "Explorer of screws": "explore_screws",
+    "Explorer of inverse kinematics": "explore_inverse",
+    "Explorer of singularities": "explore_singularities",
+    "Explorer of Jacobian methods": "explore_jacobians",
+    "Explorer of the path": "explore_path",
+}
+_LINE = re.compile(r"(?P<title>Explorer of [^:]+): (?P<name>[^:]+): joints \((?P<joints>[^()]*)\)")
+_HINT = "No kernel runs here: sliders move the arm; run the notebook for frames, numbers and plots."
+
+
+@functools.lru_cache(maxsize=32)
+def page_of(line: str) -> str | None:
+    """The page of the explorer that stored this line; None for a line of anything else, or of an own arm.
+
+    >>> page_of("Explorer of screws: my arm: joints (0.0) deg; tool at (0.0, 0.0, 0.0) mm") is None
+    True
+    """
+    from coursekit import robots, view
+
+    found = _LINE.match(line)
+    arms = {arm.name: arm for arm in robots.all().values()}
+    if found is None or found["title"] not in EXPLORERS or found["name"] not in arms:
+        return None
+    robot = arms[found["name"]]
+    per_si = np.where(np.array(robot.joint_types) == "revolute", 180 / np.pi, 1000)
+    shown = np.array([float(number) for number in re.findall(r"-?\d+\.\d+", found["joints"])])
+    panel = getattr(view, EXPLORERS[found["title"]])(robot)
+    try:
+        if "theta" in panel.values and shown.shape == (robot.n,):
+            panel.set(theta=np.clip(shown / per_si, robot.q_min, robot.q_max))
+        return view.to_html(panel)
+    finally:
+        panel.close()
+
+
+# -- for JupyterLab
+
+
+class Page(JupyterHandler):
+    """GET coursekit/explorer?line=...: the page of that line."""
+
+    @web.authenticated
+    async def get(self) -> None:
+        page = await asyncio.to_thread(page_of, self.get_argument("line"))
+        if page is None:
+            raise web.HTTPError(404, "no explorer of the course stored this line")
+        self.finish(page)
+
+
+def _jupyter_server_extension_points() -> list[dict[str, str]]:
+    return [{"module": "coursekit.view.reopened"}]
+
+
+def _load_jupyter_server_extension(server: Any) -> None:
+    address = url_path_join(server.web_app.settings["base_url"], "coursekit", "explorer")
+    server.web_app.add_handlers(".*", [(address, Page)])
+
+
+# -- for nbconvert
+
+
+class Exporter(HTMLExporter):
+    """HTML in which the explorers move."""
+
+    export_from_notebook = "HTML with explorers that move"
+
+    def from_notebook_node(
+        self, nb: NotebookNode, resources: dict | None = None, **more: Any
+    ) -> tuple[Any, dict]:
+        """As every exporter: the page, and nbconvert's resources."""
+        nb = NotebookNode(nb)
+        for cell in nb.cells:
+            for output in cell.get("outputs", []):
+                page = page_of(output.get("data", {}).get("text/plain", ""))
+                if page is not None:
+                    output.data["text/html"] = _frame(page)
+        return super().from_notebook_node(nb, resources, **more)
+
+
+def _frame(page):
+    style = "width: 100%; height: 600px; border: 0"
+    return f'<iframe srcdoc="{html.escape(page)}" style="{style}" loading="lazy"></iframe><p>{_HINT}</p>'

@@ -1,0 +1,50 @@
+// The arm follows its sliders here, in the next frame, before the kernel has answered and also where there is none. When
+// the kernel speaks of the same sliders, its pose is drawn and no longer ours.
+
+function makeFollower(model, moved) {
+  let sliders = [], ahead = false, over = false;
+  const touched = () => {
+    ahead = true;
+    moved();
+  };
+  const forget = () => sliders.forEach((slider) => slider && slider.off("change:touched", touched));
+  const listen = async () => {
+    const ids = (model.get("drive").sliders || []).map((id) => id && model.widget_manager.get_model(id.replace("IPY_MODEL_", "")));
+    const found = await Promise.all(ids);
+    if (over) return; // closed meanwhile: nothing may hang on the sliders
+    forget();
+    sliders = found;
+    ahead = false;
+    sliders.forEach((slider) => slider && slider.on("change:touched", touched));
+  };
+  // Joint values in radians and metres: of the sliders, and of the kernel for the joints that have none.
+  const theta = () => {
+    const { per } = model.get("drive"), known = model.get("theta");
+    return sliders.map((slider, k) => (slider ? slider.get("value") / per[k] : known[k]));
+  };
+  model.on("change:drive", listen);
+  return {
+    ready: listen(),
+    theta,
+    isAhead: () => ahead,
+    // a pose of the kernel is there: does it speak of what the sliders say now?
+    compare() {
+      const known = model.get("theta");
+      if (ahead && theta().every((q, k) => Math.abs(q - known[k]) < 1e-9)) ahead = false;
+    },
+    // paths of the links, and 16 numbers for each
+    pose() {
+      const { path, screws } = model.get("drive");
+      return [screws.map((_, k) => [...splitPath(path), String(k + 1)]), new Float64Array(displacements(screws, theta()).flat())];
+    },
+    // the sliders go where a motion is, in pages where no kernel puts them there
+    put(values) {
+      sliders.forEach((slider, k) => slider && slider.set("value", values[k] * model.get("drive").per[k]));
+    },
+    end() {
+      over = true;
+      forget();
+      model.off("change:drive", listen);
+    },
+  };
+}

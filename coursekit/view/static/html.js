@@ -1,0 +1,12 @@
+// Small helpers of both scripts: elements, and keys and menus that the notebook must not take for its own.
+
+function element(tag, attributes = {}, ...children) {
+  const node = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+  node.append(...children);
+  return node;
+}
+
+// JupyterLab and Notebook take arrow keys and letters for themselves, unless an element says no: "d d" deletes a cell.
+const own = { "data-lm-suppress-shortcuts": "true" };
+const keepKeys = (node) => node.addEventListener("keydown", (event) => event.stopPropagation());

@@ -1,0 +1,123 @@
+"""The page moves the arm itself: before the kernel answers, and where there is none."""
+
+import re
+
+import numpy as np
+import pytest
+
+from coursekit import robots, view
+
+pytestmark = pytest.mark.browser
+
+KR6 = robots.kuka_kr6()
+IMPORT = "import numpy as np\nfrom coursekit import robots, view"
+BUSY = """() => { window.jupyterapp.shell.currentWidget.context.sessionContext.session.kernel
+                  .requestExecute({ code: "import time; time.sleep(6)" }); }"""
+# Where link 6 is in the first frame after a key, and how many milliseconds that took.
+NEXT_FRAME = """async (key) => {
+    const range = document.querySelector(".ck-range");
+    const { viewer } = document.querySelector(".ck-viewer").coursekit;
+    const link = viewer.scene_tree.find(["ck", "robot", "1"]).object;
+    range.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+    await new Promise(requestAnimationFrame);
+    await new Promise(requestAnimationFrame);
+    return link.quaternion.toArray();
+}"""
+
+
+@pytest.mark.parametrize("busy", [False, True])
+def test_the_arm_follows_its_slider_in_the_next_frame(notebook, lab, busy):
+    notebook.open(lab.write(f"next{busy}.ipynb", IMPORT, "panel = view.explore(robots.kuka_kr6())\npanel"))
+    notebook.run_all()
+    notebook.wait_view()
+    if busy:
+        notebook.page.evaluate(BUSY)
+        notebook.page.wait_for_timeout(300)
+    x, y, z, w = notebook.page.evaluate(NEXT_FRAME, "PageUp")
+    half = -np.radians(10) / 2  # about -z, as axis 1 of this arm
+    np.testing.assert_allclose([x, y, z, w], [0, 0, np.sin(half), np.cos(half)], rtol=0, atol=1e-12)
+    notebook.idle()
+    notebook.rest()
+    theta = notebook.kernel("panel.values['theta'].tolist()")
+    np.testing.assert_allclose(notebook.transform("/ck/robot/6"), KR6.displacements(theta)[-1], atol=1e-12)
+    before = notebook.frames()
+    notebook.page.wait_for_timeout(1000)
+    assert notebook.frames() == before, "frames are drawn although nothing moves"
+    assert notebook.errors == []
+
+
+@pytest.fixture
+def offline(browser, tmp_path):
+    """Function: a panel as a page of its own, opened without a network."""
+    contexts, errors = [], []
+
+    def open_it(panel):
+        file = tmp_path / "page.html"
+        file.write_text(view.to_html(panel), encoding="utf-8")
+        panel.close()
+        contexts.append(browser.new_context(offline=True, viewport={"width": 1280, "height": 800}))
+        page = contexts[-1].new_page()
+        page.on("pageerror", lambda error: errors.append(str(error)))
+        page.goto(file.as_uri())
+        page.wait_for_function("() => document.querySelector('.ck-viewer')?.coursekit?.stage.frames > 0")
+        return page
+
+    yield open_it
+    for context in contexts:
+        context.close()
+    assert errors == []
+
+
+def link(page, path):
+    columns = page.evaluate(
+        """(path) => document.querySelector(".ck-viewer").coursekit.viewer
+                       .scene_tree.find(path.split("/").filter((s) => s)).object.matrix.elements""",
+        path,
+    )
+    return np.reshape(columns, (4, 4)).T
+
+
+@pytest.mark.parametrize("name", ["explore", "explore_screws", "explore_singularities", "explore_jacobians"])
+def test_a_page_without_a_kernel_follows_its_sliders(offline, name):
+    panel = getattr(view, name)()
+    robot, start = panel.scene.robots["robot"].robot, panel.scene.robots["robot"].theta
+    page = offline(panel)
+    sliders = page.locator("[role=slider]")
+    assert sliders.count() == (1 if name == "explore_screws" else robot.n)
+    joint = 1 if name == "explore_screws" else 0
+    sliders.nth(0).press("PageUp")
+    page.wait_for_function("(old) => document.getElementById('words').textContent !== old", arg="")
+    page.wait_for_timeout(500)
+    theta = start + np.radians(10) * np.eye(robot.n)[joint]
+    np.testing.assert_allclose(link(page, f"/ck/robot/{robot.n}"), robot.displacements(theta)[-1], atol=1e-12)
+    scene = view.Scene()
+    scene.robot(robot, theta)
+    assert page.inner_text("#words") == scene.text()
+    lost = page.evaluate(
+        """() => ["lost", "linear"].map((name) => document.querySelector(".ck-viewer").coursekit.viewer
+                   .scene_tree.find(["ck", name]).object.visible)"""
+    )
+    assert lost == [name != "explore_singularities", name != "explore_jacobians"]
+
+
+def test_a_motion_moves_the_sliders_of_a_page_without_a_kernel(offline):
+    panel = view.explore(KR6)
+    thetas = np.linspace(KR6.home, KR6.home + 0.4, 21)
+    panel.play(thetas, autoplay=False)
+    page = offline(panel)
+    page.locator(".ck-scrub").focus()
+    page.keyboard.press("End")
+    page.wait_for_timeout(500)
+    np.testing.assert_allclose(link(page, "/ck/robot/6"), KR6.displacements(thetas[-1])[-1], atol=1e-12)
+    shown = page.eval_on_selector_all(
+        "[role=slider]", "all => all.map((s) => +s.getAttribute('aria-valuenow'))"
+    )
+    np.testing.assert_allclose(np.radians(shown[:6]), thetas[-1], atol=1e-4)
+    numbers = [float(x) for x in re.findall(r"-?\d+\.\d", page.inner_text("#words"))]
+    np.testing.assert_allclose(numbers[:6], np.degrees(thetas[-1]), atol=0.051)
+
+    page.locator("[role=slider]").first.press("PageUp")
+    page.wait_for_timeout(500)
+    assert not page.locator(".ck-player").is_visible()
+    theta = thetas[-1] + np.radians([10, 0, 0, 0, 0, 0])
+    np.testing.assert_allclose(link(page, "/ck/robot/6"), KR6.displacements(theta)[-1], atol=1e-12)

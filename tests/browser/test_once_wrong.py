@@ -1,0 +1,180 @@
+"""What was lost or wrong once before an explorer: typing, keys, menus, a silent kernel, ghosts, copies."""
+
+import numpy as np
+import pytest
+
+from coursekit import ik, robots, rotations, view
+
+pytestmark = pytest.mark.browser
+
+KR6 = robots.kuka_kr6()
+IMPORT = "from coursekit import robots, view"
+SHOW = "panel = view.explore(robots.kuka_kr6())\npanel"
+CELLS = "() => window.jupyterapp.shell.currentWidget.content.widgets.length"
+
+
+@pytest.fixture(scope="module")
+def opened(lab, open_page):
+    notebook = open_page()
+    notebook.open(lab.write("once_wrong.ipynb", IMPORT, SHOW, "1 + 1"))
+    notebook.run_all()
+    notebook.wait_view()
+    return notebook
+
+
+@pytest.fixture
+def explorer(opened):
+    opened.kernel("panel.reset()")
+    settle(opened)
+    opened.errors.clear()
+    yield opened
+    assert opened.errors == []
+
+
+def settle(notebook):
+    notebook.page.wait_for_timeout(300)
+    notebook.idle()
+    notebook.rest()
+
+
+@pytest.mark.parametrize(
+    ("typed", "degrees"),
+    [("12,5", 12.5), ("−20", -20), ("90°", 90), ("pi/3", 60), ("0.5 rad", 28.6478897565412)],
+)
+def test_numbers_are_read_as_people_type_them(explorer, typed, degrees):
+    box = explorer.page.locator(".ck-number").first
+    box.fill(typed)
+    box.press("Enter")
+    settle(explorer)
+    assert explorer.kernel("panel.values['theta'][0]") == pytest.approx(np.radians(degrees), abs=1e-14)
+    assert explorer.page.locator(".ck-hint").first.inner_text() == ""
+
+
+def test_what_is_no_number_or_too_large_is_told(explorer):
+    box, hint = explorer.page.locator(".ck-number").first, explorer.page.locator(".ck-hint").first
+    box.fill("12.5.5")
+    box.press("Enter")
+    assert "“12.5.5” is no number here: write 12.5" in hint.inner_text()
+    assert box.input_value() == "0"
+    box.fill("999")
+    box.press("Enter")
+    assert hint.inner_text() == "999 is beyond the limit, 170 deg"
+    settle(explorer)
+    assert explorer.kernel("panel.values['theta'][0]") == pytest.approx(KR6.q_max[0], abs=1e-14)
+
+
+def test_escape_takes_a_typed_number_back(explorer):
+    box = explorer.page.locator(".ck-number").first
+    box.focus()
+    explorer.page.keyboard.type("77")
+    explorer.page.keyboard.press("Escape")
+    explorer.page.keyboard.press("Tab")
+    settle(explorer)
+    assert box.input_value() == "0" and explorer.kernel("panel.values['theta'][0]") == 0
+
+
+def test_keys_on_the_buttons_of_the_view_are_not_the_notebooks(explorer):
+    cells = explorer.page.evaluate(CELLS)
+    explorer.page.get_by_role("button", name="side", exact=True).click()
+    explorer.page.keyboard.press("d")
+    explorer.page.keyboard.press("d")
+    explorer.page.wait_for_timeout(300)
+    assert explorer.page.evaluate(CELLS) == cells
+
+
+def test_the_right_button_moves_the_picture_and_opens_no_menu(explorer):
+    area, page = explorer.page.locator(".ck-pane").bounding_box(), explorer.page
+    before = explorer.pixels()
+    page.mouse.move(area["x"] + 200, area["y"] + 200)
+    page.mouse.down(button="right")
+    page.mouse.move(area["x"] + 260, area["y"] + 230, steps=5)
+    page.mouse.up(button="right")
+    explorer.rest()
+    assert explorer.pixels() != before
+    assert page.locator(".lm-Menu").count() == 0
+
+
+def test_a_kernel_that_does_not_answer_is_told_and_its_answer_ends_that(notebook, lab):
+    notebook.open(lab.write("silent.ipynb", IMPORT, SHOW))
+    notebook.run_all()
+    notebook.wait_view()
+    said = notebook.page.locator(".ck-silence")
+    notebook.page.locator("[role=slider]").first.press("PageUp")
+    notebook.page.wait_for_timeout(3500)
+    assert said.inner_text() == "", "it has answered"
+    notebook.page.evaluate(
+        "() => { const n = window.jupyterapp.shell.currentWidget;"
+        " n.context.sessionContext.session.kernel.requestExecute({ code: 'import time; time.sleep(8)' }); }"
+    )
+    notebook.page.wait_for_timeout(300)
+    notebook.page.locator("[role=slider]").first.press("PageUp")
+    notebook.page.wait_for_function(
+        "() => /kernel does not answer/.test(document.querySelector('.ck-silence').textContent)", timeout=7000
+    )
+    notebook.page.wait_for_function(
+        "() => document.querySelector('.ck-silence').textContent === ''", timeout=20_000
+    )
+    notebook.page.evaluate(
+        "() => window.jupyterapp.shell.currentWidget.context.sessionContext.session.kernel.restart()"
+    )
+    notebook.idle()
+    notebook.page.locator("[role=slider]").first.press("PageUp")
+    notebook.page.wait_for_function(
+        "() => /run the cell again/.test(document.querySelector('.ck-silence').textContent)", timeout=7000
+    )
+
+
+def test_ghosts_stand_at_their_solutions_whatever_is_drawn_anew(notebook, lab):
+    notebook.open(lab.write("ghosts.ipynb", IMPORT, "panel = view.explore_inverse()\npanel"))
+    notebook.run_all()
+    notebook.wait_view()
+    notebook.page.get_by_label("Newton's way").check()
+    settle(notebook)
+    notebook.page.get_by_role("slider", name="guess θ1").press("PageUp")
+    settle(notebook)
+    pose = notebook.kernel("panel.values['pose'].tolist()")
+    T = np.eye(4)
+    T[:3, :3], T[:3, 3] = rotations.from_zyx(pose[3:]), pose[:3]
+    theta = ik.analytic(KR6, T).turned
+    shown = notebook.kernel("[g['path'] for g in panel.scene.ghosts]")
+    assert len(shown) == 7
+    for path in shown:
+        expected = KR6.displacements(theta[int(path[-1])])
+        np.testing.assert_allclose(notebook.transform(f"{path}/6"), expected[-1], rtol=0, atol=1e-9)
+    assert notebook.errors == []
+
+
+def test_a_view_that_was_closed_asks_for_no_more_pictures(open_page, lab):
+    notebook = open_page()
+    notebook.page.add_init_script(
+        """const original = HTMLCanvasElement.prototype.getContext;
+           HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+             return /webgl/.test(kind) ? null : original.call(this, kind, ...rest);
+           };"""
+    )
+    count = "asked = []\npanel.viewer.on_msg(lambda w, c, b: asked.append(c['type']))"
+    notebook.open(lab.write("closed.ipynb", IMPORT, SHOW, "panel", count))
+    notebook.run_all()
+    notebook.page.wait_for_function("() => document.querySelectorAll('.ck-picture').length === 2")
+    notebook.page.evaluate(
+        """() => { const n = window.jupyterapp.shell.currentWidget.content; n.activeCellIndex = 2;
+                   return window.jupyterapp.commands.execute("notebook:clear-cell-output"); }"""
+    )
+    notebook.page.wait_for_timeout(1500)
+    notebook.kernel("asked.clear()")
+    notebook.page.locator("[role=slider]").first.press("PageUp")
+    notebook.page.wait_for_timeout(2500)
+    assert notebook.kernel("asked.count('need_png')") == 1
+
+
+def test_a_damaged_script_is_told_and_not_waited_for(browser, tmp_path):
+    panel = view.explore(KR6)
+    text = view.to_html(panel)
+    panel.close()
+    start = text.index('receiveBundle(unpack("') + len('receiveBundle(unpack("')
+    file = tmp_path / "damaged.html"
+    file.write_text(text[:start] + "AAAA" + text[start + 400 :], encoding="utf-8")
+    page = browser.new_context(offline=True).new_page()
+    page.goto(file.as_uri())
+    page.wait_for_function("() => /came damaged/.test(document.querySelector('.ck-wait')?.textContent)")
+    page.context.close()

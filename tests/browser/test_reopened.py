@@ -1,0 +1,72 @@
+"""A saved notebook of yesterday: its explorers show their picture, and move although no kernel has them."""
+
+import nbformat
+import numpy as np
+import pytest
+
+from coursekit import robots
+from tests.browser.test_kinematics import link
+
+pytestmark = pytest.mark.browser
+
+KR6 = robots.kuka_kr6()
+IMPORT = "from coursekit import robots, view"
+SHUT_DOWN = "() => window.jupyterapp.shell.currentWidget.context.sessionContext.shutdown()"
+
+
+def moves(page):
+    """The page in the output follows its slider."""
+    frame = page.locator(".ck-saved iframe").first.content_frame
+    frame.locator("[role=slider]").first.press("PageUp", timeout=60_000)
+    page.wait_for_timeout(500)
+    inner = next(frame for frame in page.frames if "coursekit/explorer" in frame.url)
+    inner.wait_for_function("() => document.querySelector('.ck-viewer')?.coursekit?.stage.frames > 0")
+    theta = KR6.home + np.radians([10, 0, 0, 0, 0, 0])
+    np.testing.assert_allclose(link(inner, "/ck/robot/6"), KR6.displacements(theta)[-1], atol=1e-12)
+    assert "joints (10.0, -90.0" in inner.inner_text("#words")
+    assert "Run the cell" in page.inner_text(".ck-saved p")
+
+
+def test_the_next_day_its_kernel_gone(notebook, lab):
+    notebook.open(lab.write("yesterday.ipynb", IMPORT, "view.explore(robots.kuka_kr6())"))
+    notebook.run_all()
+    notebook.wait_view()
+    notebook.save()
+    notebook.page.evaluate(SHUT_DOWN)
+    notebook.reload()
+    page = notebook.page
+    page.wait_for_selector(".ck-saved img, .ck-saved iframe")
+    assert not page.get_by_text("model not found").first.is_visible()
+    moves(page)
+    notebook.run_all()  # and the cell brings all of it back
+    notebook.wait_view()
+    assert page.locator(".ck-saved").count() == 0
+
+
+def test_not_trusted_because_only_some_cells_were_run(notebook, lab):
+    name = lab.write("sent.ipynb", IMPORT, "view.explore(robots.kuka_kr6())", "1 + 1")
+    notebook.open(name)
+    notebook.command("notebook:run-all-above")
+    notebook.run_all()
+    notebook.wait_view()
+    notebook.save()
+    stored = nbformat.read(lab.notebooks / name, as_version=4)
+    nbformat.write(stored, lab.notebooks / "received.ipynb")  # by mail, say: nobody has trusted this file
+    notebook.open("received.ipynb")
+    notebook.page.wait_for_selector(".ck-saved img, .ck-saved iframe")
+    moves(notebook.page)
+
+
+def test_an_arm_of_ones_own_keeps_its_picture(notebook, lab):
+    own = "import dataclasses\nview.explore(dataclasses.replace(robots.kuka_kr6(), name='my arm'))"
+    notebook.open(lab.write("own.ipynb", IMPORT, own))
+    notebook.run_all()
+    notebook.wait_view()
+    notebook.save()
+    notebook.page.evaluate(SHUT_DOWN)
+    notebook.reload()
+    notebook.page.wait_for_selector(".ck-saved img")
+    notebook.page.wait_for_timeout(3000)
+    assert notebook.page.locator(".ck-saved iframe").count() == 0
+    assert "Run the cell" in notebook.page.inner_text(".ck-saved p")
+    assert notebook.page.evaluate("() => document.querySelector('.ck-saved img').naturalWidth") == 640

@@ -1,0 +1,104 @@
+"""The page's own functions, tested in node: what they compute needs no browser."""
+
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from coursekit import Robot, robots, view
+from coursekit.view.viewer import STATIC
+
+TESTS = Path(__file__).resolve().parents[1] / "page"
+
+
+def in_node(*command, **more):
+    node = shutil.which("node")
+    if not node:
+        (pytest.fail if os.environ.get("CI") == "true" else pytest.skip)("node is not installed")
+    done = subprocess.run([node, *command], capture_output=True, text=True, **more)
+    assert done.returncode == 0, done.stdout[-4000:] + done.stderr[-2000:]
+    return done
+
+
+@pytest.mark.parametrize("path", sorted(TESTS.glob("*.test.mjs")), ids=lambda path: path.stem)
+def test_in_node(path):
+    in_node("--test", path)
+
+
+# -- kinematics in the page: the numbers of Robot, to 1e-12
+
+SLIDES = Robot.from_axes(
+    [[0, 0, 1], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [0, 0, 0.3], [0.2, 0, 0.3]], np.eye(4), "RPR", name="slide"
+)
+ARMS = [*robots.all().values(), SLIDES]
+COMPUTE = """
+import { describe, displacements, product } from "%s";
+const cases = JSON.parse(await new Promise((done) => {
+  let text = "";
+  process.stdin.on("data", (part) => (text += part)).on("end", () => done(text));
+}));
+const answer = ({ name, screws, M, theta }) => {
+  const links = displacements(screws, theta);
+  return { links, tool: product(links.at(-1), M), words: describe({ name, screws, M }, theta) };
+};
+console.log(JSON.stringify(cases.map(answer)));
+"""
+
+
+@pytest.fixture(scope="module")
+def computed():
+    """(robot, theta) and what the page's script makes of them."""
+    rng, cases = np.random.default_rng(5), []
+    for robot in ARMS:
+        for theta in (robot.home, np.zeros(robot.n), 1e-9 * np.ones(robot.n), rng.uniform(-7, 7, robot.n)):
+            cases.append((robot, theta))
+    told = [
+        {"name": r.name, "screws": r.S.T.tolist(), "M": r.M.T.ravel().tolist(), "theta": q.tolist()}
+        for r, q in cases
+    ]
+    script = COMPUTE % (STATIC / "kinematics.js").as_uri()
+    done = in_node("--input-type=module", "-e", script, input=json.dumps(told))
+    return list(zip(cases, json.loads(done.stdout), strict=True))
+
+
+def test_the_page_has_the_numbers_of_the_kernel(computed):
+    for (robot, theta), found in computed:
+        links = np.reshape(found["links"], (-1, 4, 4)).transpose(0, 2, 1)
+        np.testing.assert_allclose(links, robot.displacements(theta), rtol=0, atol=1e-12)
+        tool = np.reshape(found["tool"], (4, 4)).T
+        np.testing.assert_allclose(tool, robot.fk(theta), rtol=0, atol=1e-12)
+
+
+def test_the_page_says_it_in_the_words_of_the_kernel(computed):
+    for (robot, theta), found in computed:
+        scene = view.Scene()
+        scene.robot(robot, theta)
+        assert found["words"] == scene.text()
+
+
+@pytest.mark.parametrize(
+    "explorer", ["explore", "explore_screws", "explore_singularities", "explore_jacobians"]
+)
+def test_what_moves_with_the_arm_is_a_link_or_said_to_be_computed(explorer):
+    panel = getattr(view, explorer)()
+    sliders = [slider for slider in panel.drivers() if slider is not None]
+
+    def drawn():
+        commands = view.meshcat.commands(panel.scene)
+        return {**commands, **{path: T.tolist() for path, T in panel.scene.moved.items()}}
+
+    try:
+        panel.refresh()
+        before = drawn()
+        for slider in sliders:
+            slider.show(slider.get() + 0.1)
+        after = drawn()
+        moved = {key.split("#")[0] for key in after if before.get(key) != after[key]}
+        assert all(path.startswith(tuple(panel.computed or ["none"])) for path in moved)
+        assert bool(moved) == bool(panel.computed)
+    finally:
+        panel.close()
