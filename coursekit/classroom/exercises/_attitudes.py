@@ -20,12 +20,27 @@ def attitude(rng):
     return turn(direction(rng), rng.uniform(0.3, 1.4) if rng.integers(2) else rng.uniform(2.3, 3.1))
 
 
+def small_turn(rng):
+    """w is by far the largest."""
+    return turn(direction(rng), rng.uniform(0.3, 0.8))
+
+
 def large(axis):
     """A turn by more than a third of a turn about a line near one axis: that component is the largest."""
 
     def draw(rng):
         k = rng.choice([-1, 1], 3) * np.roll([0.8, 0.48, 0.36], axis)
         return turn(k, rng.uniform(2.3, 2.9))
+
+    return draw
+
+
+def nearly_about(axis):
+    """Nearly half a turn about nearly an axis: that component is the largest even if its size is wrong."""
+
+    def draw(rng):
+        k = rng.choice([-1, 1], 3) * np.roll([1.0, 0.03, 0.02], axis)
+        return turn(k / np.linalg.norm(k), np.pi - rng.uniform(0.02, 0.04))
 
     return draw
 

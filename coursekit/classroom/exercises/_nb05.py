@@ -20,10 +20,16 @@ def _first_wrong_column(value: np.ndarray, right: np.ndarray) -> int:
     return int(np.argmax(gap > 1e-3)) if np.any(gap > 1e-3) else int(np.argmax(gap))
 
 
+def _counted(number: int, what: str) -> str:
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"
+
+
 def axis_missed(args, value, right) -> str:
     """A column of J_s is a screw: where does its axis lie?"""
     if value.shape != right.shape:
-        return f"your Jacobian has {value.shape[1]} columns for {right.shape[1]} joints"
+        return (
+            f"your Jacobian has {_counted(value.shape[1], 'column')} for {_counted(right.shape[1], 'joint')}"
+        )
     if not np.isfinite(value).all():
         return ""
     i = _first_wrong_column(value, right)
@@ -52,7 +58,9 @@ def axis_missed(args, value, right) -> str:
 def velocity_missed(args, value, right) -> str:
     """A column of J is what the tool does when one joint turns at 1 rad/s."""
     if value.shape != right.shape:
-        return f"your Jacobian has {value.shape[1]} columns for {right.shape[1]} joints"
+        return (
+            f"your Jacobian has {_counted(value.shape[1], 'column')} for {_counted(right.shape[1], 'joint')}"
+        )
     if not np.isfinite(value).all():
         return ""
     if value.shape[1] > 1 and np.allclose(value, value[:, :1]) and not np.allclose(right, right[:, :1]):

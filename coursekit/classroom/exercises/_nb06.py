@@ -16,19 +16,19 @@ def frame_missed(args, value, right) -> str:
         return f"your answer has {len(value)} poses for {len(points)} points"
     i = int(np.argmax(np.abs(value - right).max(axis=(1, 2)) > SMALL))
     mine, true = value[i], right[i]
+    where = "at the last point" if i == len(points) - 1 else f"at point {i} (counted from 0)"
     if not np.isfinite(mine).all():
         return ""
     beside = np.linalg.norm(mine[:3, 3] - true[:3, 3])
     if beside > SMALL:
-        return f"at point {i} your frame stands {1000 * beside:.3g} mm beside the point"
-    where = "at the last point" if i == len(points) - 1 else f"at point {i}"
+        return f"{where} your frame stands {1000 * beside:.3g} mm beside the point"
     meant = ("the outward normal", "the direction of motion", "x cross y")
     for k, (name, wanted) in enumerate(zip("xyz", meant, strict=True)):
         length, turned = np.linalg.norm(mine[:3, k]), degrees_between(mine[:3, k], true[:3, k])
         if abs(length - 1) > SMALL:
-            return f"{where} (counted from 0) your {name} has length {length:.3g}; an axis has length 1"
+            return f"{where} your {name} has length {length:.3g}; an axis has length 1"
         if turned > 1e-3:
-            return f"{where} (counted from 0) your {name} stands {_degrees(turned)} away from {wanted}"
+            return f"{where} your {name} stands {_degrees(turned)} away from {wanted}"
     return ""
 
 

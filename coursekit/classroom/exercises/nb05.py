@@ -144,7 +144,7 @@ def _singular_step(rng):
 
 
 def _whole_step(rng):
-    return rng.permutation([[1, 0, 2], [0, 1, -1]]), rng.permutation([1, -2]), 1
+    return rng.permutation([[1, 0, 2], [0, 1, -1]]), rng.permutation([1, -2]), 3
 
 
 def _planar(rng):
@@ -318,6 +318,10 @@ EXERCISES = [
             Hint("no_root", "these are eigenvalues: a half axis is the root of one"),
             Hint("in_rows", "the directions stand in the rows of your matrix; they belong in its columns"),
             Hint("ascending", "shortest first: the longest half axis should come first, with its direction"),
+            Hint(
+                "half_sorted",
+                "the half axes stand shortest first, their directions longest first: sort both alike",
+            ),
             Hint("joint_space", "the ellipsoid lives in the space of velocities: J J^T, not J^T J"),
         ),
     ),

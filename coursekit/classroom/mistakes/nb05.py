@@ -141,6 +141,11 @@ def ellipsoid_ascending(J):
     return lengths[::-1], axes[:, ::-1]
 
 
+def ellipsoid_half_sorted(J):
+    lengths, axes = right.ellipsoid(J)
+    return lengths[::-1], axes
+
+
 def ellipsoid_in_joint_space(J):
     values, vectors = np.linalg.eigh(J.T @ J)
     return np.sqrt(values[::-1][:3]), vectors[:, ::-1][:, :3]
@@ -229,6 +234,7 @@ WRONG = {
         "no_root": ellipsoid_without_root,
         "in_rows": ellipsoid_in_rows,
         "ascending": ellipsoid_ascending,
+        "half_sorted": ellipsoid_half_sorted,
         "joint_space": ellipsoid_in_joint_space,
     },
     "dls_step": {
