@@ -210,6 +210,11 @@ def answer(exercise: Exercise, value: object) -> list[np.ndarray]:
 
 
 def _numbers(value) -> np.ndarray:
+    if not isinstance(value, list | tuple | str | bool | int | float | complex) and not hasattr(
+        value, "__array__"
+    ):
+        # whatever else can be indexed, numpy would read to its end, which some things have not (np.r_)
+        raise Misfit(f"the answer ({type(value).__name__}) is not an array of numbers")
     try:
         array = np.asarray(value)
     except Exception:  # ragged lists, objects that refuse

@@ -167,6 +167,7 @@ def _transforms(exercise: Exercise, examples: list, answers: list, k: int) -> It
             yield text, _on(fits, change)
     if exercise.several:
         names = _names(exercise)
+        plural = {block.text for block in exercise.blocks if block.plural}
         for i, j in itertools.combinations(range(len(right)), 2):
             yield f"{names[i]} and {names[j]} have changed places", _exchange_parts(i, j)
         for i, name in enumerate(names):
@@ -175,6 +176,7 @@ def _transforms(exercise: Exercise, examples: list, answers: list, k: int) -> It
                     said = text.replace("your answer", name).replace(
                         "every sign is", f"{name} has a sign that is"
                     )
+                    said = said.replace(" is ", " are ", 1) if name in plural else said
                     yield f"{said}; the rest is right", _on([p == i for p in range(len(right))], change)
         return
     yield from _rearranged(exercise, right[0], mine[0])

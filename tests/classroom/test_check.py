@@ -74,7 +74,7 @@ def unwritten(*args):
         (lambda *a: RIGHT.fk(*a) + 0j, "misfit", "complex"),
         (lambda *a: "text", "misfit", "dtype"),
         (lambda *a: [[1], [1, 2]], "misfit", "not an array of numbers"),
-        (written("return np.log([-l1, l2])"), "misfit", r"NaN or infinity; it comes from line 2"),
+        (written("return np.log(-abs(theta) - l1 * l2)"), "misfit", r"NaN or infinity; it comes from line 2"),
         (lambda *a: [np.nan, 1], "misfit", "NaN"),
         (3, "misfit", r'check\("fk", fk\)'),
     ],
@@ -234,6 +234,13 @@ def test_without_a_text_there_is_no_repair_but_an_answer():
     exec("def fk(theta, l1, l2):\n" + FK.replace("np.cos(b)", "np.sin(b)").replace("\n", "\n    "), namespace)
     found = verdict("fk", namespace["fk"])
     assert (found.kind, found.say) == ("placed", "wrong: entry [0]; the rest is right (counted from 0)")
+
+
+def test_things_without_an_end_are_not_searched_for_it():
+    """np.r_ can be indexed for ever: no edit may drop its index, or hand it to numpy."""
+    body = "return np.r_[l1 * np.cos(theta[0]) + np.cos(sum(theta)), l2 * np.sin(theta[0])]"
+    assert not verdict("fk", written(body)).right
+    assert verdict("fk", lambda *a: np.r_).kind == "misfit"
 
 
 def test_the_same_code_gets_the_same_sentence():

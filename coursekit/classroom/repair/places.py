@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .sandbox import TICK
-from .variants import MAKERS, SIZES, Variant, called, whole
+from .variants import INDEXERS, MAKERS, SIZES, Variant, called, whole
 from .wraps import wraps
 
 PROBE, LOCALS = "__probe", "__locals"
@@ -137,6 +137,8 @@ def _expressions(function: ast.FunctionDef) -> Iterator[tuple[ast.AST, str, int 
 def _is_value(node: ast.AST) -> bool:
     if isinstance(node, ast.Subscript):
         return not isinstance(node.ctx, ast.Del)  # where it is written to, its index may be wrong
+    if isinstance(node, ast.Attribute) and node.attr in INDEXERS:
+        return False
     if isinstance(node, ast.Slice | ast.Starred | ast.JoinedStr | ast.FormattedValue | ast.Lambda):
         return False
     return isinstance(node, ast.expr) and not isinstance(getattr(node, "ctx", None), ast.Store | ast.Del)

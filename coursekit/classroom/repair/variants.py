@@ -93,6 +93,8 @@ _ALIKE = (
     ("diff", "gradient"),
 )
 # Never wrapped or changed: what makes arrays could be told to make enormous ones.
+# Things to be indexed and nothing else: numpy would look for their end, which they have not.
+INDEXERS = {"r_", "c_", "s_", "mgrid", "ogrid", "index_exp"}
 SIZES = {"zeros", "ones", "empty", "full", "eye", "identity", "arange", "linspace", "range", "tile", "repeat"}
 
 
@@ -335,6 +337,8 @@ def _subscript(node: ast.Subscript, variables: list[str]) -> Made:
     if isinstance(node.ctx, ast.Store):  # `x[i] = ...`: only the index is a value
         variants = [Variant("index", _on_index(change), rank=0) for change in changes(node.slice)]
         return (lambda: [index_value(node.slice)]), lambda p, _: p[0], variants
+    if isinstance(node.value, ast.Attribute) and node.value.attr in INDEXERS:
+        return whole(node, variables)
     variants = [Variant("index", _indexed(change), rank=0) for change in changes(node.slice)]
     variants.append(Variant("index", lambda p, _: p[0]))
     return (lambda: [node.value, index_value(node.slice)]), lambda p, _: p[0][p[1]], variants
