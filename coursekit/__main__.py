@@ -48,8 +48,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     one.add_argument("--jobs", type=int, default=2, help="submissions graded at the same time (2)")
     one.add_argument(
-        "--seed", type=int, default=0, help="draws the hidden inputs: same seed, same grades (0)"
+        "--seed", type=int, help="draws the hidden inputs: same seed, same grades (kept in the journal)"
     )
+    one.add_argument("--regrade", action="store_true", help="set the journal aside, grade everybody anew")
     one.add_argument("--no-box", action="store_true", help="run students' code without a sandbox")
 
     one = command("export", _export, "write the course for another grader")
@@ -86,7 +87,12 @@ def _grade(options: argparse.Namespace, rest: list[str]) -> None:
     from .classroom.grader import grade
 
     summary = grade.grade_class(
-        options.submissions, options.out, jobs=options.jobs, seed=options.seed, box=not options.no_box
+        options.submissions,
+        options.out,
+        jobs=options.jobs,
+        seed=options.seed,
+        box=not options.no_box,
+        regrade=options.regrade,
     )
     print(summary)
 

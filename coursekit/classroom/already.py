@@ -161,4 +161,4 @@ def _cases(examples: list, good: list[bool]) -> str:
 
 def _some(names: list[str]) -> str:
     """Two of them, and that there are more."""
-    return _joined(names) if len(names) < 3 else f"{names[0]}, {names[1]} and in {len(names) - 2} more cases"
+    return _joined(names) if len(names) < 4 else f"{names[0]}, {names[1]} and in {len(names) - 2} more cases"

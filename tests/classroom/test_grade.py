@@ -20,6 +20,7 @@ from coursekit.classroom.author import notebook
 from coursekit.classroom.course import Course
 from coursekit.classroom.grader import box, grade
 from coursekit.classroom.grader.box import bubblewrap
+from coursekit.classroom.grader.journal import Journal
 from coursekit.classroom.grader.worker import RUNNER
 from tests.classroom.small import COURSE, HERE, NAME, ROOT, grade_small, hand_in, points, records
 
@@ -109,6 +110,57 @@ def test_the_same_seed_gives_the_same_grades_and_feedback(tmp_path, solved):
     assert "wrong: entry [0]; the rest is right" in tables[0]
     with pytest.raises(ValueError, match="another run"):
         grade_small(tmp_path / "in", tmp_path / "one", seed=6)
+
+
+@needs_box
+def test_what_decides_a_grade_may_not_change_under_grades(tmp_path, solved):
+    """Points or solutions that change would otherwise be mixed with grades by the old ones, in silence."""
+    shutil.copytree(HERE / "course", tmp_path / "course")
+    course = Course(tmp_path / "course" / "notebooks", tmp_path / "course")
+    hand_in(tmp_path / "in", "ann", solved)
+    grade_small(tmp_path / "in", tmp_path / "out", course=course)
+    path = tmp_path / "course" / "exercises" / "nb01.py"
+    path.write_text(path.read_text().replace("n=8", "n=9", 1))
+    with pytest.raises(ValueError, match=r"course nb01 changed since.*--regrade"):
+        grade_small(tmp_path / "in", tmp_path / "out", course=course)
+    grade_small(tmp_path / "in", tmp_path / "out", course=course, regrade=True)
+    assert (tmp_path / "out" / "journal.1.jsonl").exists(), "nothing is lost"
+    assert len(records(tmp_path / "out")) == 1
+
+
+def test_two_graders_do_not_write_into_one_journal(tmp_path):
+    first = Journal(tmp_path / "journal.jsonl", {"seed": 1})
+    with pytest.raises(ValueError, match="another grader is at work"):
+        Journal(tmp_path / "journal.jsonl", {"seed": 1})
+    first.close()
+    Journal(tmp_path / "journal.jsonl", {"seed": 1}).close()
+
+
+def test_a_journal_believes_only_records_of_whom_it_was_asked_for(tmp_path):
+    path = tmp_path / "journal.jsonl"
+    journal = Journal(path, {"seed": 1})
+    for student in ("ann", "bob"):
+        journal.add({"student": student, "unit": "nb01", "digest": student})
+    lines = path.read_bytes().splitlines(keepends=True)
+    path.write_bytes(b"".join([lines[0], lines[2], lines[1]]))
+    with pytest.raises(ValueError, match="changed by somebody else: no record of ann"):
+        journal.record("ann", "nb01")
+    journal.close()
+    path.write_bytes(lines[0] + b"garbage\n")
+    with pytest.raises(ValueError, match=r"journal.jsonl, line 2 is no record"):
+        Journal(path, {"seed": 1})
+
+
+@needs_box
+def test_without_a_seed_one_is_drawn_and_kept(tmp_path, solved):
+    hand_in(tmp_path / "in", "ann", solved)
+    for out in ("one", "two", "one"):
+        grade_small(tmp_path / "in", tmp_path / out)
+    heads = [
+        json.loads((tmp_path / out / "journal.jsonl").read_text().splitlines()[0]) for out in ("one", "two")
+    ]
+    assert heads[0]["seed"] != heads[1]["seed"], "a table of hidden answers cannot be made beforehand"
+    assert len(records(tmp_path / "one")) == 1, "the second run took the seed of the first"
 
 
 SCRIPT = """

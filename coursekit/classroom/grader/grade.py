@@ -10,7 +10,9 @@ from __future__ import annotations
 import base64
 import concurrent.futures as futures
 import contextlib
+import hashlib
 import json
+import secrets
 import tempfile
 import time
 from collections.abc import Iterator
@@ -21,7 +23,7 @@ from ..author import notebook
 from ..course import Course, the_course
 from . import pool, report, worker
 from .box import Limits, bubblewrap
-from .journal import Journal
+from .journal import Journal, seed_of, set_aside
 from .submissions import Submissions, digest
 
 SPARE = 60  # seconds a worker may take beyond the limits of its submission
@@ -32,8 +34,9 @@ def grade_class(
     out: Path,
     *,
     jobs: int = 2,
-    seed: int = 0,
+    seed: int | None = None,
     box: bool = True,
+    regrade: bool = False,
     executor: futures.Executor | None = None,
     course: Course | None = None,
     limits: Limits | None = None,
@@ -46,11 +49,14 @@ def grade_class(
     submissions : folder with one folder for each student
     out : gets grades.csv, <student>.html and journal.jsonl; if it was used before, that run is resumed
     jobs : submissions graded at the same time (with an executor: how many it can take)
-    seed : draws the hidden inputs; same seed, same grades
+    seed : draws the hidden inputs; same seed, same grades. Without one it is drawn once for each folder `out`
+        and kept in its journal, so that nobody can work out the inputs beforehand
     box : False runs students' code without bubblewrap, and grades.csv says so
+    regrade : set the journal that is there aside and grade everybody anew
     executor : where the jobs run: threads by default, each of which starts processes
 
-    ValueError if there is no box, if a canary fails, or if `out` belongs to another run.
+    ValueError if there is no box, if a canary fails, if the course changed since the last run into `out`, or
+    if another grader is at work there.
     """
     course, submissions, out = course or the_course(), Path(submissions), Path(out)
     if not submissions.is_dir():
@@ -61,13 +67,21 @@ def grade_class(
             "--no-box grades without it: that code can then do whatever you can"
         )
     units = [unit for unit in course.units if course.exercises(unit)]
-    make = Jobs(course, units, seed=seed, box=box, limits=limits or Limits())
+    limits = limits or Limits()
     out.mkdir(parents=True, exist_ok=True)
+    path = out / "journal.jsonl"
+    if regrade:
+        set_aside(path)
+    if seed is None:
+        seed = seed_of(path)
+        seed = secrets.randbits(48) if seed is None else seed
+    make = Jobs(course, units, seed=seed, box=box, limits=limits)
+    run = {"seed": seed, "box": box, "limits": asdict(limits), **course_digests(course, units)}
     with contextlib.ExitStack() as stack:
         stack.callback(pool.close)
         if executor is None:
             executor = stack.enter_context(futures.ThreadPoolExecutor(jobs))
-        journal = Journal(out / "journal.jsonl", {"seed": seed, "box": box})
+        journal = Journal(path, run)
         stack.enter_context(contextlib.closing(journal))
         copies = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="submissions")))
         handed_in = Submissions(submissions, copies, {unit: course.notebook(unit).name for unit in units})
@@ -81,6 +95,23 @@ def grade_class(
                 journal.add(record)
                 bar.update()
         return _write(out, handed_in.students, units, journal, box)
+
+
+def course_digests(course: Course, units: list[str]) -> dict[str, str]:
+    """{"course nb01": digest, ...} of all that decides a grade: exercises, mistakes and solutions."""
+
+    def digest_of(unit: str) -> str:
+        text = hashlib.sha256()
+        for folder in ("exercises", "mistakes"):
+            for path in sorted((course.classroom / folder).glob("*.py")):
+                if path.stem == unit or path.stem.startswith("_"):
+                    text.update(path.read_bytes())
+        for cell in notebook.read(course.notebook(unit))["cells"]:
+            if notebook.is_solution(cell) or "setup" in notebook.tags(cell):
+                text.update(cell["source"].encode())
+        return text.hexdigest()[:16]
+
+    return {f"course {unit}": digest_of(unit) for unit in units}
 
 
 class Jobs:

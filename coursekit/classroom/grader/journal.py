@@ -10,24 +10,60 @@ from pathlib import Path
 class Journal:
     """OUT/journal.jsonl. In memory is only where each line stands, so that a class of any size fits.
 
-    Its first line says which run it belongs to (seed, box); ValueError if that is another one.
+    Its first line says which run it belongs to: the seed, the box, and what decides a grade. ValueError if
+    that is another one, if somebody else grades into this folder, or if a line is no record.
     """
 
     def __init__(self, path: Path, run: dict) -> None:
+        self._path = path
         self._file = open(path, "a+b")  # noqa: SIM115 - close() closes it
         self._where: dict[tuple[str, str], tuple[int, str | None]] = {}
-        self._file.seek(0)
-        head = self._file.readline()
-        if not head.endswith(b"\n"):
-            self._file.truncate(0)
-            self._append(run)
-        elif json.loads(head) != run:
+        try:
+            self._lock()
+            self._file.seek(0)
+            head = self._file.readline()
+            if head.endswith(b"\n"):
+                self._same_run(self._parsed(head, 1), run)
+                self._read()
+            else:
+                self._file.truncate(0)
+                self._append(run)
+        except BaseException:
             self._file.close()
+            raise
+
+    def _lock(self) -> None:
+        try:
+            import fcntl
+        except ImportError:  # Windows has none
+            return
+        try:
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
             raise ValueError(
-                f"{path.parent} holds another run, {head.decode().strip()}: give an empty folder"
+                f"another grader is at work in {self._path.parent}: wait, or name another folder"
+            ) from None
+
+    def _same_run(self, before: dict, now: dict) -> None:
+        """What decides a grade may not change under grades that are there."""
+        changed = [what for what in sorted({*before, *now}) if before.get(what) != now.get(what)]
+        if changed:
+            raise ValueError(
+                f"{self._path.parent} holds another run: {', '.join(changed)} changed since. "
+                "Name an empty folder, or grade everybody anew with --regrade"
             )
-        else:
-            self._read()
+
+    def _parsed(self, line: bytes, number: int) -> dict:
+        try:
+            record = json.loads(line)
+        except ValueError:
+            record = None
+        if not isinstance(record, dict):
+            raise ValueError(
+                f"{self._path}, line {number} is no record of the grader's. Remove that line, and the "
+                "submission is graded again"
+            )
+        return record
 
     def holds(self, student: str, unit: str, digest: str) -> bool:
         """Is this very submission graded?"""
@@ -38,23 +74,34 @@ class Journal:
 
     def record(self, student: str, unit: str) -> dict:
         """The last record of a student's unit."""
-        self._file.seek(self._where[student, unit][0])
-        return json.loads(self._file.readline())
+        position, _ = self._where[student, unit]
+        self._file.seek(position)
+        record = self._parsed(self._file.readline(), 0)
+        if (record.get("student"), record.get("unit")) != (student, unit):
+            raise ValueError(
+                f"{self._path} was changed by somebody else: no record of {student}, {unit} is there"
+            )
+        return record
 
     def close(self) -> None:
         self._file.close()
 
     def _read(self) -> None:
         position = self._file.tell()
-        for line in iter(self._file.readline, b""):
+        for number, line in enumerate(iter(self._file.readline, b""), 2):
             if not line.endswith(b"\n"):  # the grader was killed while it wrote
                 self._file.truncate(position)
                 break
-            self._note(json.loads(line), position)
+            record = self._parsed(line, number)
+            if not {"student", "unit"} <= record.keys():
+                self._parsed(b"", number)
+            self._note(record, position)
             position = self._file.tell()
 
     def _note(self, record: dict, position: int) -> None:
-        digest = None if record.get("failed") else record["digest"]  # what failed is tried again next time
+        digest = (
+            None if record.get("failed") else record.get("digest")
+        )  # what failed is tried again next time
         self._where[record["student"], record["unit"]] = (position, digest)
 
     def _append(self, record: dict) -> int:
@@ -64,3 +111,19 @@ class Journal:
         self._file.flush()
         os.fsync(self._file.fileno())
         return position
+
+
+def seed_of(path: Path) -> int | None:
+    """The seed of a journal that is there, None if there is none that can be read."""
+    try:
+        with open(path, "rb") as file:
+            return json.loads(file.readline()).get("seed")
+    except (OSError, ValueError, AttributeError):
+        return None
+
+
+def set_aside(path: Path) -> None:
+    """Keep an old journal under a name of its own, so that a new one can begin."""
+    if path.exists():
+        number = next(n for n in range(1, 10_000) if not path.with_suffix(f".{n}.jsonl").exists())
+        path.rename(path.with_suffix(f".{number}.jsonl"))

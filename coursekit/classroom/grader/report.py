@@ -25,7 +25,7 @@ class Gradebook:
 
     def __init__(self, path: Path, units: list[str], boxed: bool) -> None:
         self._file = path.open("w", newline="", encoding="utf-8", errors="replace")
-        self._writer = csv.writer(self._file)
+        self._writer = csv.writer(self._file, quoting=csv.QUOTE_ALL)  # where `;` separates, too
         self._units = units
         self._box = "bubblewrap" if boxed else "NO BOX"
         self._writer.writerow(["student", "points", "of", *units, "notes", "box"])
@@ -62,7 +62,11 @@ def _harmless(cell):
         return ""
     if isinstance(cell, str):
         cell = "".join(c if c.isprintable() else " " for c in cell)
-        return "'" + cell if cell[:1] in ("=", "+", "-", "@", "\t") else cell
+        return (
+            "'" + cell
+            if cell[:1] in ("=", "+", "-", "@", "\t", "\uff1d", "\uff0b", "\uff0d", "\uff20")
+            else cell
+        )
     return cell
 
 
