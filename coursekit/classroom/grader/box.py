@@ -70,6 +70,7 @@ class Box:
             start_new_session=True,
         )
         self._read = b""
+        self.cpu = 0.0  # seconds it used, known when it is closed
         for pipe in (self._process.stdin, self._process.stdout):
             os.set_blocking(pipe.fileno(), False)  # type: ignore[union-attr]
 
@@ -89,6 +90,7 @@ class Box:
 
     def close(self) -> None:
         """End it, and all that it started."""
+        self.cpu = cpu(self._process.pid)
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(self._process.pid, signal.SIGKILL)
         for pid in _family(self._process.pid):  # without bubblewrap nothing else ends them
@@ -149,6 +151,16 @@ def used(root: int) -> int:
                         total += 0 if file.st_ino in seen else 512 * file.st_blocks
                         seen.add(file.st_ino)
     return total
+
+
+def cpu(root: int) -> float:
+    """Seconds of processor time of a process and all that descend from it, as far as they are alive."""
+    ticks = 0
+    for pid in _family(root):
+        with contextlib.suppress(OSError, ValueError, IndexError):
+            fields = Path(f"/proc/{pid}/stat").read_bytes().rpartition(b")")[2].split()
+            ticks += int(fields[11]) + int(fields[12])
+    return ticks / os.sysconf("SC_CLK_TCK")
 
 
 def _family(root: int) -> list[int]:

@@ -25,6 +25,7 @@ class Student:
         self.left = exercises + 2  # boxes
         self.end = time.monotonic() + limits.submission
         self.starts = 0
+        self.cpu = 0.0  # seconds of all its boxes
         self.deadly: dict[int, int] = {}  # cell -> 1: only its definitions are run, 2: nothing of it
         self.late = False  # the notebook's time was over before its last cell
         self.box: Box | None = None
@@ -95,4 +96,5 @@ class Student:
         """End the box."""
         if self.box is not None:
             self.box.close()
+            self.cpu += self.box.cpu
         self.box = None

@@ -75,7 +75,7 @@ def grade(job: dict, libraries: _Libraries) -> dict:
     except ValueError as error:
         unreadable = {name: {**row, "text": str(error)} for name, row in result.items()}
         return {"exercises": unreadable, "notes": [str(error)]}
-    before = time.process_time(), _of_children()
+    before = time.process_time()
     library = libraries.of(job["library"])
     student = Student(sources, library, limits, bubblewrap() if job["box"] else None, len(exercises))
     try:
@@ -90,14 +90,8 @@ def grade(job: dict, libraries: _Libraries) -> dict:
             row["text"], row["points"] = _told(found), exercise.points if found.right else 0
     finally:
         student.close()
-    cpu = time.process_time() - before[0] + _of_children() - before[1]
+    cpu = time.process_time() - before + student.cpu
     return {"exercises": result, "notes": student.notes, "boxes": student.starts, "cpu": round(cpu, 2)}
-
-
-def _of_children() -> float:
-    """CPU seconds of all boxes that have ended."""
-    times = os.times()
-    return times.children_user + times.children_system
 
 
 @cache
