@@ -34,7 +34,8 @@ def told(
     if show is None:
         return "\n".join([*lines, f"  More: {ask.format('more')}"])
     if show in ("more", "all"):
-        lines += [_wrapped(f"{text[0].upper()}{text[1:]}", "  ") for text in found.more]
+        further = found.more if show == "all" else found.more[:1]  # no wall of words
+        lines += [_wrapped(f"{text[0].upper()}{text[1:]}", "  ") for text in further]
         if place:
             lines.append(_wrapped(f"Look again at “{place}” in this notebook.", "  "))
         if show == "more":
