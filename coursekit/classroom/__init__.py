@@ -3,8 +3,8 @@
 From a student's function to a sentence: `check` finds the exercise (`exercise`, `course`) and its public
 examples (`samples/`), `attempt` calls the function on each of them, `verdict` asks one question after the
 other until it has an answer (`transforms`: what was done to the right answer; `repair/`: in which line;
-`already`: what is right), `told` writes it down at the level that was asked for, and `picture` and `panel` show
-it. The grader judges with the same `verdict`.
+`already`: what is right), `told` writes it down at the level that was asked for, and `picture` and `panel`
+show it. The grader judges with the same `verdict`.
 
 What lies here goes to students, but for three rooms of the instructors: `mistakes/`, `author/` and `grader/`.
 """
