@@ -19,7 +19,7 @@ def moves(page):
     frame = page.locator(".ck-saved iframe").first.content_frame
     frame.locator("[role=slider]").first.press("PageUp", timeout=60_000)
     page.wait_for_timeout(500)
-    inner = next(frame for frame in page.frames if "coursekit/explorer" in frame.url)
+    inner = next(frame for frame in page.frames if frame.url.startswith("blob:"))
     inner.wait_for_function("() => document.querySelector('.ck-viewer')?.coursekit?.stage.frames > 0")
     theta = KR6.home + np.radians([10, 0, 0, 0, 0, 0])
     np.testing.assert_allclose(link(inner, "/ck/robot/6"), KR6.displacements(theta)[-1], atol=1e-12)

@@ -23,7 +23,7 @@
   const isLost = (node) => /Error displaying widget: model not found/.test(node.textContent)
     || (node.querySelector("img") && !node.querySelector(".ck-root, .ck-control, .ck-saved"));
 
-  function revive(node, data, base) {
+  function revive(node, data, { baseUrl, token }) {
     const line = textOf(data["text/plain"]);
     const place = node.ownerDocument.createElement("div");
     place.className = "ck-saved";
@@ -34,15 +34,19 @@
     node.style.display = "none";
     node.after(place);
     const theme = document.body.dataset.jpThemeLight === "false" ? "dark" : "light";
-    const address = `${base}coursekit/explorer?line=${encodeURIComponent(line)}#${theme}`;
-    fetch(address, { method: "GET" }).then((answer) => {
+    const address = `${baseUrl}coursekit/explorer?line=${encodeURIComponent(line)}`;
+    // As JupyterLab asks its server: behind a hub a page of the server's knows nobody by a cookie alone.
+    const headers = token ? { Authorization: `token ${token}` } : {};
+    fetch(address, { headers, redirect: "manual" }).then(async (answer) => {
       if (!answer.ok) return; // an arm of one's own, or a server without the course: the picture stays
-      const frame = Object.assign(document.createElement("iframe"), { src: address, title: line });
+      const page = URL.createObjectURL(new Blob([await answer.text()], { type: "text/html" }));
+      const frame = Object.assign(document.createElement("iframe"), { src: `${page}#${theme}`, title: line });
       frame.style.cssText = "width: 100%; height: 580px; border: 0; position: absolute; visibility: hidden";
       frame.onload = () => {
         frame.style.position = "static";
         frame.style.visibility = "visible";
         picture.remove();
+        URL.revokeObjectURL(page);
         said.textContent = SENTENCE;
       };
       place.prepend(frame);
@@ -51,7 +55,7 @@
   }
 
   function activate(app) {
-    const base = JSON.parse(document.getElementById("jupyter-config-data").textContent).baseUrl;
+    const server = JSON.parse(document.getElementById("jupyter-config-data").textContent);
     const revived = new WeakMap(); // node of the output -> what stands in its place
     let due = null;
     const look = () => {
@@ -66,7 +70,7 @@
         if (!data["image/png"] || !LINE.test(textOf(data["text/plain"]))) continue;
         const there = revived.get(node);
         if (there && there.isConnected) continue;
-        if (isLost(node)) revived.set(node, revive(node, data, base));
+        if (isLost(node)) revived.set(node, revive(node, data, server));
       }
     };
     new MutationObserver(() => (due = due || setTimeout(look, 150))).observe(document.body, { childList: true, subtree: true });
