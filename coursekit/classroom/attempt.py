@@ -43,15 +43,12 @@ class Attempt:
     """What one call gave: an answer (then `fault` is ''), or a fault.
 
     fault : "" or a kind of verdict: unwritten, error, misfit; `text` says it in a sentence.
-    line  : in which line of the function it went wrong, 0 if that is not known.
     """
 
     parts: tuple[np.ndarray, ...] = ()
     fault: str = ""
     text: str = ""
-    line: int = 0
     changed: str = ""  # an argument that is not what it was before
-    whole: bool = False  # the answer came as whole numbers
     calls: tuple[str, ...] = ()  # functions of coursekit.kinematics that it called
     printed: str = ""
     endless: bool = False
@@ -91,7 +88,7 @@ def line_of_nan(function: Callable, arguments: list) -> tuple[int, str]:
         with _quietly(io.StringIO()), np.errstate(divide="raise", invalid="raise"):
             function(*thaw(arguments))
     except FloatingPointError as error:
-        frame, line = _place(error, function)
+        frame, line = _place(error)
         return line - frame.f_code.co_firstlineno + 1 if frame else 0, str(error)
     except Exception:
         pass
@@ -106,10 +103,8 @@ def _read(exercise: Exercise, value: Any, printed: str) -> Attempt:
         if value is None and printed:
             text = "it prints the answer and returns None: put `return` in place of `print`"
         return Attempt(fault="misfit", text=text)
-    whole = any(np.asarray(x).dtype.kind in "biu" for x in (value if exercise.several else [value]))
-    found = Attempt(parts=tuple(parts), whole=whole)
     text = misshapen(exercise, parts)
-    return replace(found, fault="misfit", text=text) if text else found
+    return Attempt(tuple(parts), "misfit" if text else "", text)
 
 
 def _equal(a: Any, b: Any) -> bool:
@@ -183,7 +178,7 @@ def _endless(watch: _Watch) -> Attempt:
         return Attempt(fault="error", text="it does not end", endless=True)
     code, line = watch.frame.f_code, watch.line - watch.frame.f_code.co_firstlineno + 1
     text = f"it does not end: after {LINES:,} lines it is still in line {line} of {code.co_name}"
-    return Attempt(fault="error", text=text + _source_line(code, watch.line), line=line, endless=True)
+    return Attempt(fault="error", text=text + _source_line(code, watch.line), endless=True)
 
 
 # ---- what was raised
@@ -198,7 +193,7 @@ def _explain(exercise: Exercise, function: Callable, error: Exception, arguments
     except ValueError:  # a function without a signature
         pass
     text = f"{type(error).__name__}: {str(error).partition(chr(10))[0].strip()}"[:200]
-    frame, at = _place(error, function)
+    frame, at = _place(error)
     if frame is None:
         return Attempt(fault="error", text=f"it raises {text}")
     line = at - frame.f_code.co_firstlineno + 1
@@ -209,10 +204,10 @@ def _explain(exercise: Exercise, function: Callable, error: Exception, arguments
     text = f"line {line} of {frame.f_code.co_name} raises {text}{_source_line(frame.f_code, at)}"
     if told := _variables(frame, at):
         text += f"\n  there {told}"
-    return Attempt(fault="error", text=text, line=line)
+    return Attempt(fault="error", text=text)
 
 
-def _place(error: Exception, function: Callable) -> tuple[FrameType | None, int]:
+def _place(error: Exception) -> tuple[FrameType | None, int]:
     """(frame, line) of the student's code that is nearest to the error."""
     ours = [f for f in traceback.walk_tb(error.__traceback__) if not _is_library(f[0].f_code.co_filename)]
     return ours[-1] if ours else (None, 0)

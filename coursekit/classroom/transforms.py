@@ -50,8 +50,10 @@ def _same(exercise: Exercise) -> Callable:
     def same(example, mine: Parts, done: Parts) -> bool:
         return len(mine) == len(done) and all(
             bool(np.isfinite(b).all())
-            and compare.same(kind, a, b, example.tolerance(i) * max(1.0, float(np.max(np.abs(b), initial=0))))
-            for i, (kind, a, b) in enumerate(zip(exercise.kinds, mine, done, strict=True))
+            and compare.same(
+                kind, a, b, np.asarray(example.tol) * max(1.0, float(np.max(np.abs(b), initial=0)))
+            )
+            for kind, a, b in zip(exercise.kinds, mine, done, strict=True)
         )
 
     return same

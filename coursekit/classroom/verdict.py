@@ -43,23 +43,18 @@ class Example:
     wrong: dict[str, Parts]
     tol: ArrayLike
 
-    def tolerance(self, part: int) -> np.ndarray:
-        return np.asarray(self.tol)
-
     def agrees(self, parts: Parts, right: Parts | None = None) -> bool:
         """Is this answer the right one (or the one given)? A law decides where several answers are right."""
         if self.exercise.compare == "any_solution" and right is None:
             return bool(np.all([np.isfinite(p).all() for p in parts])) and not broken_law(self, parts)
         pairs = zip(self.exercise.kinds, parts, self.right if right is None else right, strict=True)
-        return all(compare.same(kind, a, b, self.tolerance(i)) for i, (kind, a, b) in enumerate(pairs))
+        return all(compare.same(kind, a, b, self.tol) for kind, a, b in pairs)
 
     def masks(self, parts: Parts) -> Parts:
         """Which entries are right."""
         return tuple(
-            compare.mask(kind, a, b, self.tolerance(i))
-            if a.shape == b.shape
-            else np.zeros(np.broadcast_shapes(b.shape), bool)
-            for i, (kind, a, b) in enumerate(zip(self.exercise.kinds, parts, self.right, strict=True))
+            compare.mask(kind, a, b, self.tol) if a.shape == b.shape else np.zeros(b.shape, bool)
+            for kind, a, b in zip(self.exercise.kinds, parts, self.right, strict=True)
         )
 
 

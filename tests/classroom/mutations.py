@@ -41,17 +41,9 @@ def survivors(course: Course, unit: str, exercise: Exercise) -> list[str]:
             hits = [hit for hit in search._try([place], variants, 0, place.node.lineno) if hit]
             found += [f"{here} | {hit.kind}" for hit in hits]
         for edits in (line_edits, name_edits):
-            for edit in list(edits(search.tree)):
-                here = _line(search.tree, edit.line)
-                back = edit.put()
-                try:
-                    good = search._right(search.box.compile())
-                except (SyntaxError, ValueError, TypeError):
-                    good = False
-                finally:
-                    back()
-                if good and edit.kind not in HARMLESS:
-                    found.append(f"{here} | {edit.kind} {edit.what}".strip())
+            for hit in search._edited(edits):
+                if hit and hit.kind not in HARMLESS:
+                    found.append(f"{_line(search.tree, hit.line)} | {hit.kind} {hit.what}".strip())
     return list(dict.fromkeys(found))
 
 
