@@ -192,6 +192,7 @@ def test_nothing_is_lost_after_a_kill_in_the_middle(tmp_path, solved):
     before = records_that_are_whole(journal)
     assert 1 <= len(before) < 4
     grade_small(tmp_path / "in", tmp_path / "out")
+    assert not (tmp_path / "out" / ".copies").exists(), "what the killed run left is gone"
     after = records(tmp_path / "out")
     assert after[: len(before)] == before
     assert sorted(r["student"] for r in after) == ["ann", "bob", "cem", "dan"]

@@ -13,7 +13,7 @@ import contextlib
 import hashlib
 import json
 import secrets
-import tempfile
+import shutil
 import time
 from collections.abc import Iterator
 from dataclasses import asdict
@@ -83,7 +83,10 @@ def grade_class(
             executor = stack.enter_context(futures.ThreadPoolExecutor(jobs))
         journal = Journal(path, run)
         stack.enter_context(contextlib.closing(journal))
-        copies = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="submissions")))
+        copies = out / ".copies"  # not elsewhere: what a killed run left there, the next one finds
+        shutil.rmtree(copies, ignore_errors=True)
+        copies.mkdir()
+        stack.callback(shutil.rmtree, copies, ignore_errors=True)
         handed_in = Submissions(submissions, copies, {unit: course.notebook(unit).name for unit in units})
         ahead = 2 * jobs + 2
         _canaries(run_all(executor, make.canaries(), ahead))

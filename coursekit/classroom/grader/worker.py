@@ -11,6 +11,7 @@ import base64
 import contextlib
 import json
 import os
+import shutil
 import tempfile
 import threading
 import time
@@ -41,8 +42,8 @@ def main() -> None:
         import resource
 
         resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
-    threading.Thread(target=_end_with_parent, daemon=True).start()
     with tempfile.TemporaryDirectory(prefix="library") as folder:
+        threading.Thread(target=_end_with_parent, args=[folder], daemon=True).start()
         libraries = _Libraries(Path(folder))
         for line in jobs:
             data = json.dumps(grade(json.loads(line), libraries)).encode() + b"\n"
@@ -135,11 +136,12 @@ def library(course: Course, unit: str, seed: int) -> dict[str, str]:
     return locked_files((*course.allowed(unit), *needed))
 
 
-def _end_with_parent() -> None:
+def _end_with_parent(folder: str) -> None:
     """If the grader is killed, its workers go too; bubblewrap takes what is in the box along."""
     parent = os.getppid()
     while os.getppid() == parent:
         time.sleep(0.5)
+    shutil.rmtree(folder, ignore_errors=True)
     os._exit(1)
 
 
