@@ -4,11 +4,25 @@ From a student's function to a sentence: `check` finds the exercise (`exercise`,
 examples (`samples/`), `attempt` calls the function on each of them, `verdict` asks one question after the
 other until it has an answer (`transforms`: what was done to the right answer; `repair/`: in which line;
 `already`: what is right), `told` writes it down at the level that was asked for, and `picture` and `panel`
-show it. The grader judges with the same `verdict`.
+show it. What is written is used by the cells below it (`onward`); questions with numbers that change and the
+ticks of a notebook's goals stand in `question` and `questions/`. The grader judges with the same `verdict`.
 
 What lies here goes to students, but for three rooms of the instructors: `mistakes/`, `author/` and `grader/`.
 """
 
 from .check import CheckFailed, Diagnosis, check, diagnose, example
+from .onward import use, yours
+from .question import ask, goals, own_seed
 
-__all__ = ["CheckFailed", "Diagnosis", "check", "diagnose", "example"]
+__all__ = [
+    "CheckFailed",
+    "Diagnosis",
+    "ask",
+    "check",
+    "diagnose",
+    "example",
+    "goals",
+    "own_seed",
+    "use",
+    "yours",
+]

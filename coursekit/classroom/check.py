@@ -18,6 +18,7 @@ from .attempt import Attempt, attempt
 from .course import Course, the_course
 from .exercise import Exercise, thaw
 from .panel import offer
+from .question import remember
 from .told import LEVELS, told
 from .verdict import Example, Verdict, verdict
 
@@ -70,8 +71,10 @@ def check(name: str, function: Callable, show: str | None = None) -> None:
     if printed := next((a.printed for a in work.attempts if a.printed), ""):
         print(printed[:2000].rstrip("\n"))
     text = work.text(function, show)
-    if found.right and (before := _mended.pop(name, "")):
-        text += f"; {before} was it"
+    if found.right:
+        remember(name)
+        if before := _mended.pop(name, ""):
+            text += f"; {before} was it"
     if not found.right:
         _mended[name] = found.mended
     print(f"{MARKS.get(found.kind, '✗')} {name}: {text}")

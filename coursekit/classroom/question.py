@@ -1,0 +1,198 @@
+"""`ask("lever").answer(-0.4)`: questions with numbers that change, and the ticks of a notebook's goals.
+
+The questions of notebook 0X and its goals stand in `questions/nb0X.py`. A question draws its numbers from a
+seed: in a folder that was released to a student, that student's own; everywhere else the same for all, so
+that stored outputs can be compared. What was answered or checked rightly is remembered beside the notebooks
+in one small file, which stays there: it is never sent anywhere.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import json
+import numbers
+import zlib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .course import CLASSROOM, ROOT
+from .exercise import nearest
+
+PROGRESS = ".coursekit-progress.json"
+_done: set[str] = set()  # names of exercises and questions that were right in this kernel
+
+
+@dataclass(frozen=True)
+class Question:
+    """A question with numbers that change.
+
+    draw      : draw(rng) -> the numbers (or words) of one draw, by name.
+    text      : the question, with {name} for each of them; it says the unit of the answer.
+    answer    : answer(**numbers) -> a number, a list of numbers or the letter of a choice.
+    slips     : sentence -> wrong answer(**numbers) that it explains.
+    tolerance : the largest difference that counts as none.
+    """
+
+    name: str
+    draw: Callable[[np.random.Generator], Mapping[str, Any]]
+    text: str
+    answer: Callable[..., Any]
+    slips: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
+    tolerance: float = 1e-3
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A question with its numbers, as `ask` returns it."""
+
+    question: Question
+    numbers: Mapping[str, Any]
+
+    @property
+    def text(self) -> str:
+        """The question in words, numbers in their places."""
+        return self.question.text.format(**self.numbers)
+
+    def __repr__(self) -> str:
+        return self.text
+
+    def answer(self, value: Any) -> None:
+        """Print the question and whether `value` is its answer; `...` means: not answered yet.
+
+        >>> from coursekit.classroom import ask
+        >>> ask("read_t_ab").answer(...)                                                # doctest: +SKIP
+        """
+        print(self.text)
+        if value is ...:
+            print("… put your answer in place of the dots and run the cell again")
+            return
+        right = self.question.answer(**self.numbers)
+        if text := _unlike(value, right):
+            print(f"✗ {text}")
+        elif _agree(value, right, self.question.tolerance):
+            remember(self.question.name)
+            print("✓ right")
+        else:
+            slips = self.question.slips.items()
+            found = (s for s, wrong in slips if _agree(value, wrong(**self.numbers), self.question.tolerance))
+            print(f"✗ not yet. {next(found, '')}".rstrip())
+
+
+def ask(name: str, draw: int = 1) -> Asked:
+    """A question of the course by its name.
+
+    Parameters
+    ----------
+    name : str
+        The question's name: `questions/nb01.py` and so on.
+    draw : int
+        1, 2, 3 ...: other numbers each.
+
+    Raises
+    ------
+    ValueError
+        If there is no such question.
+
+    Examples
+    --------
+    >>> from coursekit.classroom import ask
+    >>> ask("no_such_question")
+    Traceback (most recent call last):
+        ...
+    ValueError: there is no question 'no_such_question'.
+    """
+    known = {question.name: question for question in _all("QUESTIONS")}
+    if name not in known:
+        raise ValueError(f"there is no question {name!r}.{nearest(name, known)}")
+    question = known[name]
+    rng = np.random.default_rng([own_seed(), zlib.crc32(name.encode()), int(draw)])
+    return Asked(question, dict(question.draw(rng)))
+
+
+def goals(notebook: str) -> None:
+    """Print the goals of a notebook in one line, with a tick for each that is reached.
+
+    A goal is reached when its exercises were right in a check, and its questions were answered rightly, now
+    or on another day in this folder.
+
+    Parameters
+    ----------
+    notebook : str
+        "01" to "06".
+    """
+    wanted = getattr(_module(f"nb{notebook}"), "GOALS", {})
+    done = _done | _remembered()
+    ticks = {goal: all(name in done for name in names) for goal, names in wanted.items()}
+    line = " · ".join(f"{'✓' if ticked else '○'} {goal}" for goal, ticked in ticks.items())
+    print(f"{sum(ticks.values())} of {len(ticks)} goals: {line}")
+
+
+def remember(name: str) -> None:
+    """An exercise or question was right; kept beside the notebooks, if this folder is a student's."""
+    if name in _done:
+        return
+    _done.add(name)
+    if (path := _file()) is None:
+        return
+    with contextlib.suppress(
+        OSError
+    ):  # a folder that cannot be written to: the tick lasts as the kernel does
+        path.write_text(json.dumps(sorted(_done | _remembered())) + "\n", encoding="utf-8")
+
+
+def own_seed() -> int:
+    """The seed of this folder's numbers: a student's own in a release, 0 everywhere else."""
+    return 0
+
+
+def _file() -> Path | None:
+    """Where ticks are kept: beside a student's notebooks, nowhere else."""
+    folder = Path.cwd()
+    solved = (CLASSROOM / "mistakes").exists() and folder == ROOT / "notebooks"
+    return None if solved or not any(folder.glob("*.ipynb")) else folder / PROGRESS
+
+
+def _remembered() -> set[str]:
+    path = _file()
+    try:
+        return set(json.loads(path.read_text(encoding="utf-8"))) if path else set()
+    except (OSError, ValueError, TypeError):
+        return set()
+
+
+def _all(what: str) -> list[Question]:
+    folder = Path(__file__).with_name("questions")
+    return [q for path in sorted(folder.glob("nb*.py")) for q in getattr(_module(path.stem), what, ())]
+
+
+@cache
+def _module(unit: str) -> Any:
+    return importlib.import_module(f"coursekit.classroom.questions.{unit}")
+
+
+def _unlike(value: Any, right: Any) -> str:
+    """'' or why this is no answer at all: another kind of thing, another length."""
+    if isinstance(right, str):
+        return "" if isinstance(value, str) else 'the answer is a letter in quotes, like "a"'
+    if isinstance(right, numbers.Real):
+        fine = isinstance(value, numbers.Real) or getattr(value, "shape", None) == ()
+        return "" if fine else "the answer is one number"
+    try:
+        shape = np.shape(np.asarray(value, dtype=float))
+    except (TypeError, ValueError):
+        return "the answer is a list of numbers"
+    wanted = np.shape(right)
+    return "" if shape == wanted else f"the answer has shape {wanted}; yours has {shape}"
+
+
+def _agree(value: Any, right: Any, tolerance: float) -> bool:
+    if isinstance(right, str) or isinstance(value, str):
+        return str(value).strip().lower() == str(right).strip().lower()
+    a, b = np.asarray(value, dtype=float), np.asarray(right, dtype=float)
+    return a.shape == b.shape and bool(np.all(np.abs(a - b) <= tolerance))

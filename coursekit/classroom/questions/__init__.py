@@ -1,0 +1,1 @@
+"""Questions and goals of each notebook, one file each."""

@@ -1,0 +1,96 @@
+"""Questions whose numbers change, and the ticks of goals."""
+
+import types
+
+import pytest
+
+from coursekit.classroom import ask, goals, question
+from coursekit.classroom.author import notebook
+
+LEVER = question.Question(
+    name="lever",
+    draw=lambda rng: {"h": float(rng.choice([0.3, 0.4, 0.5])), "n": int(rng.integers(1000))},
+    text="An axis along +y at height {h} m ({n}): the x part of v?",
+    answer=lambda h, n: -h,
+    slips={"The sign is that of w x q.": lambda h, n: h},
+)
+CHOICE = question.Question("side", lambda rng: {}, "left (a) or right (b)?", lambda: "b")
+
+
+@pytest.fixture(autouse=True)
+def a_small_course(monkeypatch, tmp_path):
+    module = types.SimpleNamespace(
+        QUESTIONS=[LEVER, CHOICE], GOALS={"Levers": ["lever"], "Arms": ["lever", "fk_dh"]}
+    )
+    monkeypatch.setattr(question, "_module", lambda unit: module)
+    monkeypatch.setattr(question, "_all", lambda what: module.QUESTIONS)
+    monkeypatch.setattr(question, "_done", set())
+    (tmp_path / "01_mine.ipynb").touch()
+    monkeypatch.chdir(tmp_path)
+
+
+def test_the_same_draw_has_the_same_numbers_and_another_draw_others():
+    assert ask("lever").text == ask("lever").text
+    assert len({ask("lever", draw=d).text for d in range(1, 6)}) > 1
+
+
+def test_an_answer_is_right_a_known_slip_or_not_yet(capsys):
+    h = ask("lever").numbers["h"]
+    for answer, words in ((-h, "✓ right"), (h, "✗ not yet. The sign is that"), (9, "✗ not yet.\n")):
+        ask("lever").answer(answer)
+        assert words in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("answer", ["b", None, [1, 2]])
+def test_another_kind_of_thing_is_told(answer, capsys):
+    ask("lever").answer(answer)
+    assert "✗ the answer is one number" in capsys.readouterr().out
+
+
+def test_dots_show_the_question_only(capsys):
+    ask("lever").answer(...)
+    said = capsys.readouterr().out
+    assert said.startswith(ask("lever").text)
+    assert "in place of the dots" in said
+
+
+def test_a_letter_in_any_case(capsys):
+    ask("side").answer("B")
+    assert "✓" in capsys.readouterr().out
+    ask("side").answer(2)
+    assert "a letter in quotes" in capsys.readouterr().out
+
+
+def test_goals_are_ticked_by_answers_and_remembered_in_the_folder(capsys, tmp_path, monkeypatch):
+    ask("lever").answer(-ask("lever").numbers["h"])
+    capsys.readouterr()
+    goals("01")
+    assert capsys.readouterr().out == "1 of 2 goals: ✓ Levers · ○ Arms\n"
+    monkeypatch.setattr(question, "_done", set())  # another day
+    question.remember("fk_dh")
+    goals("01")
+    assert capsys.readouterr().out == "2 of 2 goals: ✓ Levers · ✓ Arms\n"
+    assert {p.name for p in tmp_path.iterdir()} == {question.PROGRESS, "01_mine.ipynb"}
+
+
+def test_nothing_is_written_where_no_notebooks_are(tmp_path):
+    (tmp_path / "01_mine.ipynb").unlink()
+    question.remember("fk_dh")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_torn_file_of_ticks_costs_nothing(capsys, tmp_path):
+    (tmp_path / question.PROGRESS).write_text("[torn")
+    goals("01")
+    assert "0 of 2 goals" in capsys.readouterr().out
+
+
+def test_an_unknown_question_is_refused_by_name():
+    with pytest.raises(ValueError, match=r"no question 'levers'. Did you mean 'lever'"):
+        ask("levers")
+
+
+def test_the_students_version_holds_no_answer():
+    cells = [{"cell_type": "code", "metadata": {}, "source": 'ask("lever", draw=2).answer([0, -0.4])'}]
+    (cell,) = notebook.student_version({"cells": cells})["cells"]
+    assert cell["source"] == 'ask("lever", draw=2).answer(...)'
