@@ -7,12 +7,15 @@ other until it has an answer (`transforms`: what was done to the right answer; `
 show it. What is written is used by the cells below it (`onward`); questions with numbers that change and the
 ticks of a notebook's goals stand in `question` and `questions/`. The grader judges with the same `verdict`.
 
+Everybody has an arm of their own (`own`).
+
 What lies here goes to students, but for three rooms of the instructors: `mistakes/`, `author/` and `grader/`.
 """
 
 from .check import CheckFailed, Diagnosis, check, diagnose, example
 from .onward import use, yours
-from .question import ask, goals, own_seed
+from .own import own_arm, own_seed, own_sheet
+from .question import ask, goals
 
 __all__ = [
     "CheckFailed",
@@ -22,7 +25,9 @@ __all__ = [
     "diagnose",
     "example",
     "goals",
+    "own_arm",
     "own_seed",
+    "own_sheet",
     "use",
     "yours",
 ]

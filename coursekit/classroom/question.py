@@ -23,6 +23,7 @@ import numpy as np
 
 from .course import CLASSROOM, ROOT
 from .exercise import nearest
+from .own import own_seed
 
 PROGRESS = ".coursekit-progress.json"
 _done: set[str] = set()  # names of exercises and questions that were right in this kernel
@@ -144,11 +145,6 @@ def remember(name: str) -> None:
         OSError
     ):  # a folder that cannot be written to: the tick lasts as the kernel does
         path.write_text(json.dumps(sorted(_done | _remembered())) + "\n", encoding="utf-8")
-
-
-def own_seed() -> int:
-    """The seed of this folder's numbers: a student's own in a release, 0 everywhere else."""
-    return 0
 
 
 def _file() -> Path | None:

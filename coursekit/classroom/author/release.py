@@ -26,7 +26,7 @@ def release(out: Path, course: Course | None = None) -> None:
         shutil.copy(ROOT / name, out / name)
     students = out / "coursekit" / "classroom"
     students.mkdir(parents=True)
-    for name in ("__init__.py", "__main__.py"):
+    for name in ("__init__.py", "__main__.py", "commands.py"):
         shutil.copy(PACKAGE / name, out / "coursekit" / name)
     for room in ("kinematics", "view"):
         shutil.copytree(PACKAGE / room, out / "coursekit" / room, ignore=hidden)
