@@ -71,6 +71,11 @@ class Course:
         return known[name]
 
 
+def solved(folder: Path) -> bool:
+    """Is this the folder of the course's own notebooks, with their solutions, and not a student's?"""
+    return (CLASSROOM / "mistakes").exists() and folder.absolute() == ROOT / "notebooks"
+
+
 def the_course() -> Course:
     """The course this package belongs to."""
     return Course(ROOT / "notebooks", CLASSROOM)

@@ -9,11 +9,13 @@ Settings, kernels' connection files, IPython's history, matplotlib's font cache 
 """
 
 import os
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from .course import ROOT
+from .course import ROOT, solved
+from .question import progress
 
 
 def private_folders(folder: str | Path) -> dict[str, str]:
@@ -47,6 +49,23 @@ def private_folders(folder: str | Path) -> dict[str, str]:
     }
 
 
+def left_off(notebooks: Path) -> str | None:
+    """The notebook a student worked in last: the last saved one in which a cell was run, or None.
+
+    >>> from pathlib import Path
+    >>> left_off(Path("a folder with nothing in it")) is None
+    True
+    """
+    if solved(notebooks):
+        return None
+    by_time = sorted(notebooks.glob("*.ipynb"), key=lambda path: path.stat().st_mtime, reverse=True)
+    return next((path.name for path in by_time if re.search(r'"execution_count": \d', _text(path))), None)
+
+
+def _text(path: Path) -> str:
+    return path.read_text(encoding="utf-8", errors="replace")
+
+
 def start(
     arguments: Sequence[str] = (), notebooks: str | Path | None = None, folder: str | Path | None = None
 ) -> None:
@@ -78,7 +97,9 @@ def start(
             "stand beside its package: start it from the .venv in the course's folder"
         )
     folder = Path(folder) if folder else ROOT / ".venv" / "lab"
-    first_time = not folder.exists()
+    opened = left_off(notebooks)
+    if opened is None and not folder.exists():  # later JupyterLab itself opens what was open
+        opened = min((path.name for path in notebooks.glob("0*.ipynb")), default=None)
     for variable, path in private_folders(folder).items():
         Path(path).mkdir(parents=True, exist_ok=True)
         os.environ[variable] = path
@@ -90,10 +111,10 @@ def start(
     from jupyterlab.labapp import LabApp  # only now: it reads the variables above when it is imported
 
     own = [f"--ServerApp.root_dir={notebooks}"]
-    if first_time:
-        first_notebook = min(notebooks.glob("0*.ipynb"), default=None)
-        if first_notebook:
-            own.append(f"--LabApp.default_url=/lab/tree/{first_notebook.name}")
+    if opened:
+        own.append(f"--LabApp.default_url=/lab/tree/{opened}")
+    if line := progress(notebooks):
+        print(line)
     if hasattr(os, "geteuid") and os.geteuid() == 0:
         # Root is who one is in many containers; the server listens on this machine only and wants a token.
         own.append("--allow-root")

@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from .course import CLASSROOM, ROOT
+from .course import solved
 from .exercise import nearest
 from .own import own_seed
 
@@ -108,7 +108,7 @@ def ask(name: str, draw: int = 1) -> Asked:
         ...
     ValueError: there is no question 'no_such_question'.
     """
-    known = {question.name: question for question in _all("QUESTIONS")}
+    known = {question.name: question for question in _questions()}
     if name not in known:
         raise ValueError(f"there is no question {name!r}.{nearest(name, known)}")
     question = known[name]
@@ -134,6 +134,24 @@ def goals(notebook: str) -> None:
     print(f"{sum(ticks.values())} of {len(ticks)} goals: {line}")
 
 
+def progress(folder: Path) -> str:
+    """How far one is in a folder of notebooks, in one line; '' where nothing is reached yet.
+
+    >>> from pathlib import Path
+    >>> progress(Path("a folder with nothing in it"))
+    ''
+    """
+    done = _remembered(folder)
+    counts = []
+    for unit in _units():
+        wanted = getattr(_module(unit), "GOALS", {})
+        reached = sum(all(name in done for name in names) for names in wanted.values())
+        counts.append((unit[2:], reached, len(wanted)))
+    if not any(reached for _, reached, _ in counts):
+        return ""
+    return "goals reached: " + ", ".join(f"{unit}: {reached} of {count}" for unit, reached, count in counts)
+
+
 def remember(name: str) -> None:
     """An exercise or question was right; kept beside the notebooks, if this folder is a student's."""
     if name in _done:
@@ -147,24 +165,26 @@ def remember(name: str) -> None:
         path.write_text(json.dumps(sorted(_done | _remembered())) + "\n", encoding="utf-8")
 
 
-def _file() -> Path | None:
+def _file(folder: Path | None = None) -> Path | None:
     """Where ticks are kept: beside a student's notebooks, nowhere else."""
-    folder = Path.cwd()
-    solved = (CLASSROOM / "mistakes").exists() and folder == ROOT / "notebooks"
-    return None if solved or not any(folder.glob("*.ipynb")) else folder / PROGRESS
+    folder = folder or Path.cwd()
+    return None if solved(folder) or not any(folder.glob("*.ipynb")) else folder / PROGRESS
 
 
-def _remembered() -> set[str]:
-    path = _file()
+def _remembered(folder: Path | None = None) -> set[str]:
+    path = _file(folder)
     try:
         return set(json.loads(path.read_text(encoding="utf-8"))) if path else set()
     except (OSError, ValueError, TypeError):
         return set()
 
 
-def _all(what: str) -> list[Question]:
-    folder = Path(__file__).with_name("questions")
-    return [q for path in sorted(folder.glob("nb*.py")) for q in getattr(_module(path.stem), what, ())]
+def _units() -> list[str]:
+    return sorted(path.stem for path in Path(__file__).with_name("questions").glob("nb*.py"))
+
+
+def _questions() -> list[Question]:
+    return [question for unit in _units() for question in getattr(_module(unit), "QUESTIONS", ())]
 
 
 @cache

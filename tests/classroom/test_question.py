@@ -23,7 +23,7 @@ def a_small_course(monkeypatch, tmp_path):
         QUESTIONS=[LEVER, CHOICE], GOALS={"Levers": ["lever"], "Arms": ["lever", "fk_dh"]}
     )
     monkeypatch.setattr(question, "_module", lambda unit: module)
-    monkeypatch.setattr(question, "_all", lambda what: module.QUESTIONS)
+    monkeypatch.setattr(question, "_units", lambda: ["nb01"])
     monkeypatch.setattr(question, "_done", set())
     (tmp_path / "01_mine.ipynb").touch()
     monkeypatch.chdir(tmp_path)
@@ -71,6 +71,12 @@ def test_goals_are_ticked_by_answers_and_remembered_in_the_folder(capsys, tmp_pa
     goals("01")
     assert capsys.readouterr().out == "2 of 2 goals: ✓ Levers · ✓ Arms\n"
     assert {p.name for p in tmp_path.iterdir()} == {question.PROGRESS, "01_mine.ipynb"}
+
+
+def test_progress_is_one_line(tmp_path):
+    assert question.progress(tmp_path) == ""
+    question.remember("lever")
+    assert question.progress(tmp_path) == "goals reached: 01: 1 of 2"
 
 
 def test_nothing_is_written_where_no_notebooks_are(tmp_path):

@@ -27,10 +27,11 @@ def test_a_second_run_keeps_what_you_wrote_and_adds_what_is_missing(tmp_path):
 def test_it_opens_the_exercises_and_leaves_the_course_alone(tmp_path, monkeypatch):
     opened = []
     monkeypatch.setattr(study, "ROOT", tmp_path)
-    monkeypatch.setattr(lab, "start", lambda arguments, notebooks: opened.append((arguments, notebooks)))
+    monkeypatch.setattr(lab, "start", lambda *told, **more: opened.append((told, more)))
     solved = {p: p.read_bytes() for p in the_course().notebooks.glob("*.ipynb")}
     study.start(["--no-browser"])
-    assert opened == [(["--no-browser"], tmp_path / "work")]
+    private = tmp_path / ".venv" / "study"  # not the one of the solved notebooks
+    assert opened == [((["--no-browser"],), {"notebooks": tmp_path / "work", "folder": private})]
     assert {p.name for p in (tmp_path / "work").glob("*.ipynb")} == {p.name for p in solved}
     assert {p: p.read_bytes() for p in solved} == solved
 

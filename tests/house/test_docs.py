@@ -73,7 +73,7 @@ def commands(language):
     return re.findall(rf"^```{language}\n(.*?)\n```$", README, flags=re.MULTILINE | re.DOTALL)
 
 
-@pytest.mark.parametrize("ending", ["coursekit lab", "-m pytest"])
+@pytest.mark.parametrize("ending", ["coursekit study", "-m pytest"])
 def test_readme_has_each_command_for_both_systems(ending):
     (unix,) = (command for command in commands("bash") if command.endswith(ending))
     (windows,) = (command for command in commands("bat") if command.endswith(f'{ending}"'))

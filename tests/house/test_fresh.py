@@ -131,7 +131,7 @@ def test_first_command_opens_the_course(machine):
     log = machine.course.parent / "lab.log"
     with log.open("w") as output:
         process = subprocess.Popen(
-            machine.command("coursekit lab", "--no-browser", "--port=0"),
+            machine.command("coursekit study", "--no-browser", "--port=0"),
             cwd=machine.course,
             env=machine.environment,
             stdout=output,
@@ -139,7 +139,7 @@ def test_first_command_opens_the_course(machine):
             start_new_session=True,
         )
     try:
-        runtime = machine.course / ".venv" / "lab" / "runtime"
+        runtime = machine.course / ".venv" / "study" / "runtime"
         until = time.monotonic() + 900
         while not list(runtime.glob("jpserver-*.json")):
             assert process.poll() is None, log.read_text()
@@ -216,4 +216,9 @@ def test_installed_it_needs_no_network(machine, command):
 def test_nothing_is_left_outside_the_course(machine):
     assert list(machine.temporary.iterdir()) == []
     at_top = {path.name for path in machine.course.iterdir()}
-    assert at_top - {path.name for path in ROOT.iterdir()} <= {".venv", ".pytest_cache", ".hypothesis"}
+    assert at_top - {path.name for path in ROOT.iterdir()} <= {
+        "work",
+        ".venv",
+        ".pytest_cache",
+        ".hypothesis",
+    }

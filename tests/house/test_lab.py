@@ -46,6 +46,24 @@ def test_the_first_start_opens_the_first_notebook_and_later_ones_what_was_open(a
     assert not [argument for argument in asked if "default_url" in argument]
 
 
+def test_a_student_comes_back_to_the_notebook_that_was_run_last(asked, notebooks, tmp_path, capsys):
+    (notebooks / "02_second.ipynb").write_text('{"execution_count": 3}')
+    os.utime(notebooks / "02_second.ipynb", (1, 1))  # the other one was written later, and never run
+    lab.start(notebooks=notebooks, folder=tmp_path / "private")
+    assert "--LabApp.default_url=/lab/tree/02_second.ipynb" in asked
+
+
+def test_the_solved_notebooks_are_no_students(asked, tmp_path):
+    lab.start(folder=tmp_path / "private")
+    assert "--LabApp.default_url=/lab/tree/01_dh_vs_poe.ipynb" in asked
+
+
+def test_progress_is_told_in_one_line(asked, notebooks, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(lab, "progress", lambda folder: f"goals reached in {folder.name}")
+    lab.start(notebooks=notebooks, folder=tmp_path / "private")
+    assert capsys.readouterr().out == "goals reached in notebooks\n"
+
+
 def test_arguments_are_passed_on_after_its_own(asked, notebooks, tmp_path):
     lab.start(["--no-browser", "--port=8899"], notebooks=notebooks, folder=tmp_path / "private")
     assert asked[-2:] == ["--no-browser", "--port=8899"]

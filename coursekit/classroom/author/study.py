@@ -29,4 +29,5 @@ def start(arguments: list[str]) -> None:
 
     work = ROOT / "work"
     print(prepare(work))
-    lab.start(arguments, notebooks=work)
+    # a folder of its own: what was open among the solved notebooks is not what was open here
+    lab.start(arguments, notebooks=work, folder=ROOT / ".venv" / "study")
