@@ -11,11 +11,12 @@ import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, partial
+from pathlib import Path
 
 import numpy as np
 
 from .attempt import Attempt, attempt
-from .course import Course, the_course
+from .course import Course, course_here
 from .exercise import Exercise, thaw
 from .panel import offer
 from .question import remember
@@ -136,9 +137,13 @@ def examples_of(exercise: Exercise, table: dict) -> list[Example]:
     ]
 
 
-@cache
 def _ours() -> Course:
-    return the_course()
+    return _course_of(Path.cwd())
+
+
+@cache
+def _course_of(folder: Path) -> Course:
+    return course_here(folder)
 
 
 class _Work:

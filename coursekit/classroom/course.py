@@ -1,7 +1,7 @@
 """Where a course keeps its parts: solved notebooks, exercises, mistakes, sample tables.
 
 A unit is "nb01", "nb02", ...: `exercises/nb01.py` belongs to `notebooks/01_*.ipynb`, `mistakes/nb01.py` and
-`samples/nb01.json`.
+`samples/nb01.json`. A course of one's own is a folder with a `course.toml`: `your_course`.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import importlib.util
 import json
 from dataclasses import dataclass
+from datetime import datetime
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -19,16 +20,47 @@ from .exercise import Exercise, nearest
 CLASSROOM = Path(__file__).resolve().parent
 PACKAGE = CLASSROOM.parent
 ROOT = PACKAGE.parent
+TOML = "course.toml"
 
 
 @dataclass(frozen=True)
 class Course:
+    """The course of this package, or one that keeps its parts in the same rooms."""
+
     notebooks: Path
     classroom: Path  # the folder of exercises/, mistakes/ and samples/
 
     @property
     def units(self) -> list[str]:
+        """The units, in their order."""
         return sorted(path.stem for path in (self.classroom / "exercises").glob("nb*.py"))
+
+    @property
+    def title(self) -> str:
+        """What people call it."""
+        return "Robot kinematics in six notebooks"
+
+    @property
+    def version(self) -> str:
+        """Numbers with dots between them: a corrected course has a higher one."""
+        from .. import __version__
+
+        return __version__
+
+    @property
+    def weights(self) -> dict[str, float]:
+        """{exercise: what it counts}, of those that do not count their points."""
+        return {}
+
+    @property
+    def deadlines(self) -> dict[str, datetime]:
+        """{stem of a notebook's name: when it is to be handed in}, of those that have a deadline."""
+        return {}
+
+    @property
+    def place(self) -> list[str]:
+        """The course as plain data, for another process: `course_at` makes it one again."""
+        return [str(self.notebooks), str(self.classroom)]
 
     def notebook(self, unit: str) -> Path:
         """The unit's solved notebook; ValueError if there is none, or a second one (somebody's copy)."""
@@ -40,24 +72,42 @@ class Course:
             )
         return found[0]
 
+    def exercises_path(self, unit: str) -> Path:
+        """The module that holds the unit's exercises."""
+        return self.classroom / "exercises" / f"{unit}.py"
+
+    def mistakes_path(self, unit: str) -> Path:
+        """The module of functions that commit the typical mistakes; instructors only."""
+        return self.classroom / "mistakes" / f"{unit}.py"
+
+    def samples_path(self, unit: str) -> Path:
+        """The table of public examples."""
+        return self.classroom / "samples" / f"{unit}.json"
+
     def exercises(self, unit: str) -> list[Exercise]:
-        return list(getattr(_module(self.classroom / "exercises" / f"{unit}.py"), "EXERCISES", ()))
+        """The unit's exercises, in their order."""
+        return list(getattr(_module(self.exercises_path(unit)), "EXERCISES", ()))
 
     def allowed(self, unit: str) -> tuple[str, ...]:
         """Names in coursekit.kinematics the student may call: "lie.hat3", "rotations", "robot.Robot.fk"."""
-        return tuple(getattr(_module(self.classroom / "exercises" / f"{unit}.py"), "ALLOW", ()))
+        return tuple(getattr(_module(self.exercises_path(unit)), "ALLOW", ()))
 
     def wrong(self, unit: str) -> dict[str, dict]:
         """{exercise: {hint key: function}}; instructors only."""
-        path = self.classroom / "mistakes" / f"{unit}.py"
+        path = self.mistakes_path(unit)
         return getattr(_module(path), "WRONG", {}) if path.exists() else {}
 
     def samples(self, unit: str) -> dict:
+        """{exercise: {place, examples}}."""
         path = self.samples_path(unit)
         return json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
 
-    def samples_path(self, unit: str) -> Path:
-        return self.classroom / "samples" / f"{unit}.json"
+    def sources(self, unit: str) -> list[Path]:
+        """The files that say what is asked and which mistakes are known: with the solutions, all that decides
+        a grade."""
+        found = [self.exercises_path(unit), self.mistakes_path(unit)]
+        found += [path for folder in {p.parent for p in found} for path in folder.glob("_*.py")]
+        return sorted(path for path in found if path.exists())
 
     def has(self, name: str) -> bool:
         """Is there an exercise of this name?"""
@@ -81,6 +131,23 @@ def the_course() -> Course:
     return Course(ROOT / "notebooks", CLASSROOM)
 
 
+def course_here(folder: Path | None = None) -> Course:
+    """The course of a notebook that runs in this folder: that of the `course.toml` there or above it, else
+    the one this package belongs to. ValueError if that file is damaged."""
+    folder = Path(folder or Path.cwd())
+    found = next((up for up in (folder, *folder.parents) if (up / TOML).is_file()), None)
+    return the_course() if found is None else course_at([str(found)])
+
+
+def course_at(place: list[str]) -> Course:
+    """The course at a place: [its folder], or [notebooks, classroom] of one that is kept in rooms."""
+    if len(place) == 2:
+        return Course(*map(Path, place))
+    from .your_course import read
+
+    return read(Path(place[0]))
+
+
 @cache
 def _module(path: Path) -> ModuleType:
     """A module by its path: courses other than ours (in tests, say) need not be importable packages."""
@@ -88,5 +155,8 @@ def _module(path: Path) -> ModuleType:
     if spec is None or spec.loader is None:
         raise ImportError(f"{path} is no Python module")
     module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:
+        raise ValueError(f"{path}: {type(error).__name__}: {error}") from error
     return module

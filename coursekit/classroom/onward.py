@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from .compare import mask
-from .course import the_course
+from .course import course_here
 from .exercise import Exercise, Misfit, answer
 
 AGREE = 1e-9  # where there is no exercise of the function's name, which has its own tolerance
@@ -185,7 +185,7 @@ def _same_shapes(exercise: Exercise | None, found: list, expected: list) -> bool
 
 
 def _exercise(function: Callable) -> Exercise | None:
-    course, name = the_course(), _name(function)
+    course, name = course_here(), _name(function)
     return course.find(name)[1] if course.has(name) else None
 
 

@@ -105,10 +105,8 @@ def course_digests(course: Course, units: list[str]) -> dict[str, str]:
 
     def digest_of(unit: str) -> str:
         text = hashlib.sha256()
-        for folder in ("exercises", "mistakes"):
-            for path in sorted((course.classroom / folder).glob("*.py")):
-                if path.stem == unit or path.stem.startswith("_"):
-                    text.update(path.read_bytes())
+        for path in course.sources(unit):
+            text.update(path.read_bytes())
         for cell in notebook.read(course.notebook(unit))["cells"]:
             if notebook.is_solution(cell) or "setup" in notebook.tags(cell):
                 text.update(cell["source"].encode())
@@ -121,7 +119,7 @@ class Jobs:
     """Jobs are plain data: all a worker needs beside an installed coursekit, on this machine or another."""
 
     def __init__(self, course: Course, units: list[str], *, seed: int, box: bool, limits: Limits) -> None:
-        place = None if course == the_course() else [str(course.notebooks), str(course.classroom)]
+        place = None if course == the_course() else course.place
         self._common = {"course": place, "seed": seed, "box": box, "limits": asdict(limits)}
         self._course, self._units = course, units
         self._libraries = {unit: worker.library(course, unit, seed) for unit in units}

@@ -23,7 +23,7 @@ import numpy as np
 
 from ..author import tables
 from ..check import examples_of
-from ..course import Course, the_course
+from ..course import Course, course_at, the_course
 from ..exercise import Exercise
 from ..verdict import Example, Verdict, verdict
 from . import cells
@@ -67,7 +67,7 @@ class _Libraries:
 
 def grade(job: dict, libraries: _Libraries) -> dict:
     """The result of a job: points and a text for every exercise of the unit."""
-    course = Course(*map(Path, job["course"])) if job["course"] else the_course()
+    course = course_at(job["course"]) if job["course"] else the_course()
     limits = Limits(**job["limits"])
     exercises = course.exercises(job["unit"])
     result = {e.name: {"points": 0, "of": e.points, "text": ""} for e in exercises}
