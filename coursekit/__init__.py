@@ -11,6 +11,7 @@ imported when it is first used, so that `import coursekit` costs little more tha
 """
 
 import importlib
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # for editors and mypy; at run time `__getattr__` imports what is asked for
@@ -57,10 +58,22 @@ __all__ = sorted([*_WHERE, *_NAMES])
 
 def __getattr__(name: str) -> Any:
     if name in _WHERE:
-        return importlib.import_module(_WHERE[name])
+        return _module(_WHERE[name], extra="classroom")
     if name in _NAMES:
-        return getattr(importlib.import_module(_NAMES[name]), name)
+        return getattr(_module(_NAMES[name], extra="classroom"), name)
     raise AttributeError(f"coursekit has no {name!r}; it has: {', '.join(__all__)}")
+
+
+def _module(name: str, extra: str) -> ModuleType:
+    """A module of the package; where a library of others is missing, the error says how it is installed."""
+    try:
+        return importlib.import_module(name)
+    except ModuleNotFoundError as error:
+        missing = error.name or ""
+        if missing.startswith("coursekit"):
+            raise
+        text = f'{name} needs {missing}, which is not installed: pip install "coursekit[{extra}]"'
+        raise ModuleNotFoundError(text, name=missing) from None
 
 
 def __dir__() -> list[str]:

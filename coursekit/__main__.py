@@ -5,7 +5,17 @@ from __future__ import annotations
 import argparse
 import sys
 
+from . import __version__
 from .commands import COMMANDS
+
+EXAMPLES = """examples:
+  coursekit study                              learn alone: exercises in work/, where you left off
+  coursekit release OUT                        what students get
+  coursekit grade SUBMISSIONS OUT --jobs 2     grades.csv and a page for each student
+  coursekit COMMAND --help                     what a command takes
+
+exit codes: 0 done; 1 stopped by an error of ours; 2 not done: the sentence says what is missing or wrong
+"""
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -30,8 +40,12 @@ def main(argv: list[str] | None = None) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="coursekit", description="A robot kinematics course in six notebooks."
+        prog="coursekit",
+        description="A robot kinematics course in six notebooks.",
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
+    parser.add_argument("--version", action="version", version=f"coursekit {__version__}")
     words = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, command in COMMANDS.items():
         one = words.add_parser(name, help=command.text, description=command.text)

@@ -15,8 +15,9 @@ says which configuration it shows, the Panel puts the sliders there, and all goe
 Everything here is imported when it is first used: `from coursekit import view` alone loads no widget code.
 """
 
-import importlib
 from typing import Any
+
+from .. import _module
 
 _WHERE = {
     "explore": "explorers.conventions",
@@ -47,9 +48,9 @@ __all__ = sorted([*_WHERE, *_MODULES])
 
 def __getattr__(name: str) -> Any:
     if name in _WHERE:
-        return getattr(importlib.import_module(f"coursekit.view.{_WHERE[name]}"), name)
+        return getattr(_module(f"coursekit.view.{_WHERE[name]}", extra="view"), name)
     if name in _MODULES:
-        return importlib.import_module(f"coursekit.view.{name}")
+        return _module(f"coursekit.view.{name}", extra="view")
     raise AttributeError(f"coursekit.view has no {name!r}; it has: {', '.join(__all__)}")
 
 

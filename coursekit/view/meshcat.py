@@ -8,6 +8,7 @@ The page renders in sRGB, so every colour is sent as its linear value.
 import functools
 import gzip
 import importlib.util
+import json
 import warnings
 from collections.abc import Callable, Iterable
 from pathlib import Path
@@ -32,11 +33,26 @@ def bundle() -> bytes:
 
     Found without importing meshcat, whose import costs half a second and warns about a library it uses.
     """
+    return gzip.compress((_package() / "viewer" / "dist" / "main.min.js").read_bytes(), 6, mtime=0)
+
+
+@functools.cache
+def notices() -> str:
+    """The licences of meshcat and of the libraries in its bundle: they go wherever the bundle goes."""
+    viewer = _package() / "viewer"
+    libraries = json.loads((viewer / "dist" / "main.min.js.THIRD_PARTY_LICENSES.json").read_text("utf-8"))
+    own = f"meshcat\n\n{(viewer / 'LICENSE').read_text('utf-8')}"
+    theirs = [
+        f"{one['name']} {one['version']} ({one['license']})\n\n{one['licenseText']}" for one in libraries
+    ]
+    return "\n\n----\n\n".join([own, *theirs])
+
+
+def _package() -> Path:
     found = importlib.util.find_spec("meshcat")
     if found is None or found.origin is None:
         raise ModuleNotFoundError("the viewer needs meshcat, which is not installed", name="meshcat")
-    package = Path(found.origin).parent
-    return gzip.compress((package / "viewer" / "dist" / "main.min.js").read_bytes(), 6, mtime=0)
+    return Path(found.origin).parent
 
 
 def column_major(T: ArrayLike) -> bytes:

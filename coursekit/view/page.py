@@ -45,6 +45,7 @@ def to_html(shown: Panel | Viewer) -> str:
         "controls": controls.SCRIPT.replace("export default", "globalThis.coursekitControls ="),
         "state": json.dumps({"viewer": state, "sliders": sliders}).replace("</", "<\\/"),
         "bundle": _base64(meshcat.bundle()),
+        "notices": meshcat.notices().replace("--", "- -"),  # inside a comment
     }
     page = _PAGE
     for name, text in parts.items():

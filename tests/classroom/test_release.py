@@ -34,6 +34,7 @@ def test_it_holds_what_is_needed_and_no_more(released):
     assert {p.name for p in out.iterdir()} == {
         "README.md",
         "coursekit",
+        "LICENSE",
         "environment.txt",
         "notebooks",
         "pyproject.toml",

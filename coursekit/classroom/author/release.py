@@ -11,7 +11,7 @@ from . import notebook
 # Rooms of the classroom that hold or use solutions. Everything else in it goes to students.
 INSTRUCTORS = ("author", "grader", "mistakes")
 OF_THE_COURSE = ("exercises", "samples")
-SET_UP = ("environment.txt", "pyproject.toml")
+SET_UP = ("environment.txt", "pyproject.toml", "LICENSE")
 
 
 def release(out: Path, course: Course | None = None) -> None:
