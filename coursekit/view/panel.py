@@ -108,6 +108,10 @@ class Panel(ipywidgets.VBox):
         self.motion: Motion | None = None
         self._played = False  # whether it ran when the page last said so
         self._stale: list = []  # plots that wait until a drag ends
+        self.live, self.late = (
+            False,
+            False,
+        )  # more values follow at once; the scene waits for the last
         named = [
             control for control in (*controls, *below) if hasattr(control, "name")
         ]  # stock widgets are not
@@ -180,6 +184,7 @@ class Panel(ipywidgets.VBox):
     def refresh(self, live: bool = False) -> None:
         """Update scene, text and plots from the controls; `live`: more values will follow at once."""
         with self._lock:
+            self.live, self.late = live, False
             try:
                 values = self._updated()
                 self.viewer.driven_by(self._drivers(values))
@@ -363,7 +368,7 @@ class Panel(ipywidgets.VBox):
 
     def _drag_ended(self, change):
         with self._lock:
-            if not change.new and self._stale:
+            if not change.new and (self._stale or self.late):
                 self.refresh()
 
     def _message(self, widget, content, _buffers):

@@ -45,6 +45,9 @@ class Drawing:
 class Arm(Drawing):
     """The handle of a robot: where it stands (`theta`), its looks, the paths of its links."""
 
+    color: str | int = "ghost"  # of a ghost
+    links: np.ndarray | None = None  # (n, 4, 4): where a ghost's links stand, if not where its joints say
+
     def __init__(self, scene: Scene, name: str, robot: Robot, style: str, source: str) -> None:
         super().__init__(scene, f"/ck/{name}")
         self.name, self.robot, self.style = name, robot, style
@@ -116,6 +119,7 @@ class Scene:
         self.placed: dict[str, np.ndarray] = {}
         self.moved: dict[str, np.ndarray] = {}  # by `move`: path -> T in the space frame
         self.shown: dict[str, bool] = {}
+        self.said: list[str] = []  # what `text` adds
         self._labels: dict[str, list[dict]] = {}
         self._low, self._high = np.array([-0.4, -0.4, 0]) * size, np.array([0.4, 0.4, 0.8]) * size
         self.size, self.floor = float(size), float(floor)
@@ -159,9 +163,14 @@ class Scene:
     @property
     def ghosts(self) -> list[dict]:
         """Copies of src/k/solid at path/k/ghost, k = 1..n: {"src", "path", "n", "color", "opacity"}."""
-        look = {"color": color("ghost"), "opacity": 0.3}
         return [
-            {"src": f"/ck/{a.source}", "path": a.path, "n": a.robot.n, **look}
+            {
+                "src": f"/ck/{a.source}",
+                "path": a.path,
+                "n": a.robot.n,
+                "color": color(a.color),
+                "opacity": 0.3,
+            }
             for a in self.robots.values()
             if a.style == "ghost"
         ]
@@ -174,7 +183,8 @@ class Scene:
 
     def pose(self) -> np.ndarray:
         """Transforms (k, 4, 4) of the paths in `moving`, now."""
-        links = [a.robot.displacements(a.theta) for a in self.robots.values()]
+        arms = self.robots.values()
+        links = [a.robot.displacements(a.theta) if a.links is None else a.links for a in arms]
         return np.concatenate([np.empty((0, 4, 4)), *links, *(T[None] for T in self.moved.values())])
 
     def worlds(self, paths: Iterable[str]) -> dict[str, np.ndarray]:
@@ -311,10 +321,9 @@ class Scene:
 
     def remove(self, path: str) -> None:
         """Take away what is drawn at and below `path`, if anything is; a robot takes its ghosts along."""
-        gone = self.robots.pop(path.removeprefix("/ck/"), None)
-        if gone:
-            for ghost in [a for a in self.robots.values() if a.source == gone.name]:
-                ghost.remove()
+        gone = [self.robots.pop(name) for name in list(self.robots) if _below(f"/ck/{name}", path)]
+        for ghost in [a for a in self.robots.values() if a.source in [g.name for g in gone]]:
+            ghost.remove()
         tables: list[dict] = [self.parts, self._labels, self.placed, self.moved, self.shown]
         for table in tables:
             for key in [key for key in table if _below(key, path)]:
@@ -358,10 +367,10 @@ class Scene:
                 joints, tool = _joints(one.robot, one.theta), one.robot.fk(one.theta)[:3, 3]
                 who = one.robot.name + ("" if name == "robot" else f" ({name})")
                 lines.append(f"{who}: joints {joints}; tool at {text.millimetres(tool)}")
-        ghosts = len(self.ghosts)
+        ghosts = sum(one.style == "ghost" and one.links is None for one in self.robots.values())
         if ghosts:
             lines.append(f"{ghosts} translucent arm" + ("s" if ghosts > 1 else ""))
-        return "; ".join(lines) or "an empty scene"
+        return "; ".join([*lines, *self.said]) or "an empty scene"
 
     # --- inside ---
 

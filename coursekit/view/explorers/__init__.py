@@ -4,8 +4,11 @@ from collections.abc import Sequence
 from typing import Any, ClassVar
 
 import ipywidgets
+import numpy as np
+from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
+from coursekit.view import mine
 from coursekit.view.controls import Control, JointSliders, Slider, Sliders
 from coursekit.view.panel import Panel
 from coursekit.view.scene import Scene
@@ -20,10 +23,12 @@ class Explorer:
 
     name: ClassVar[str]  # of the panel
     title: ClassVar[str]  # what the stored line of text calls it
+    opener: ClassVar[str]  # the function of `view` that opens it
     computed: ClassVar[tuple[str, ...]] = ()  # paths of what only `update` can place for another theta
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: Robot, student: Any = None) -> None:
         self.robot = robot
+        self.mine = mine.Mine(student, self.opener)
         self.scene = Scene()
         self.joints: JointSliders | None = None  # those of theta, where there are some
         self.panel: Panel | None = None
@@ -50,23 +55,50 @@ class Explorer:
         """The slider of each joint, where the page can move the arm by them before the kernel answers."""
         return self.joints.used if self.joints else []
 
+    def start_at(self, theta: np.ndarray) -> None:
+        """Begin with the arm at theta (n,), which may lie outside its limits. ValueError for other shapes."""
+        n = self.robot.n
+        if theta.shape != (n,) or self.joints is None:
+            raise ValueError(f"{self.robot.name} has {n} joints: theta must be ({n},), got {theta.shape}")
+        self.joints.show(theta)
+
     def words(self, values: dict[str, Any]) -> str:
         """The numbers of the picture, for everyone."""
         raise NotImplementedError
 
-    def open(self, height: int) -> Panel:
-        """The panel, `height` pixels of picture."""
+    def yours(self, name: str, values: dict[str, Any]) -> str:
+        """Draw what the student's function of this name says for these values; the words for it.
+
+        Called after `update`. `self.mine.ask(name, ...)` calls the function.
+        """
+        raise NotImplementedError
+
+    def _show(self, values):
+        self.update(values)
+        live = self.panel is not None and self.panel.live
+        waits = self.mine.look(lambda name: self.yours(name, values), self.scene, live)
+        self.scene.said = self.mine.words()
+        if waits and self.panel:
+            self.panel.late = True
+
+    def _say(self, values):
+        return "\n".join([self.words(values), *self.mine.words()])
+
+    def open(self, height: int, theta: ArrayLike | None = None) -> Panel:
+        """The panel, `height` pixels of picture, the arm at theta (n,) where that is given."""
         controls, below = self.controls(), self.below()
+        if theta is not None:
+            self.start_at(np.asarray(theta, float))
         self.panel = Panel(
             self.name,
             self.scene,
             controls,
-            self.update,
-            self.words,
+            self._show,
+            self._say,
             below,
             self.title,
             height,
             drivers=self.drivers,
-            computed=self.computed,
+            computed=[*self.computed, mine.ROOT],
         )
         return self.panel

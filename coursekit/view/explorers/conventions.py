@@ -1,15 +1,25 @@
 """Notebook 01: one arm by three conventions, and their frames side by side."""
 
-import numpy as np
+from collections.abc import Callable
+from typing import Any
 
-from coursekit.kinematics import robots
+import numpy as np
+from numpy.typing import ArrayLike
+
+from coursekit.kinematics import dh, lie, robots
 from coursekit.kinematics.robot import Robot
 from coursekit.view.controls import Choice, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer
+from coursekit.view.mine import ROOT, Sketch, Trouble
 from coursekit.view.panel import Panel
 
 
-def explore(robot: Robot | None = None, height: int = 470) -> Panel:
+def explore(
+    robot: Robot | None = None,
+    height: int = 470,
+    theta: ArrayLike | None = None,
+    mine: Callable | list | dict | None = None,
+) -> Panel:
     """Open the explorer of standard DH, modified DH and the product of exponentials.
 
     Sliders move the arm; switches show the frames that standard DH and modified DH attach to its links, the
@@ -20,16 +30,29 @@ def explore(robot: Robot | None = None, height: int = 470) -> Panel:
     ----------
     robot : Robot, optional
         One arm. Without it the explorer offers every arm of the catalogue that has a DH table.
+    theta : (n,), optional
+        Where the arm stands at first, radians and metres.
+    mine : function, list or dict of functions, optional
+        What you wrote, beside the right arm: fk_poe, fk_dh, dh_transform, mdh_transform, screw_exp,
+        screws_from_dh (see `coursekit.view.mine`). ValueError for any other name.
+
+    >>> from coursekit import robots, view
+    >>> def fk_poe(S, M, theta):
+    ...     return M
+    >>> panel = view.explore(robots.planar_2r(), theta=[0, 1], mine=fk_poe)
+    >>> print(panel.line.value.splitlines()[-1])
+    yours, fk_poe: frame 2 is the first that is off, by 239.7 mm and 57.3 deg
+    >>> panel.close()
     """
     arms = [robot] if robot else [arm for arm in robots.all().values() if _tables(arm)]
-    return _Conventions(arms).open(height)
+    return _Conventions(arms, mine).open(height, theta)
 
 
 class _Conventions(Explorer):
-    name, title = "conventions", "Explorer of DH and PoE"
+    name, title, opener = "conventions", "Explorer of DH and PoE", "explore"
 
-    def __init__(self, arms):
-        super().__init__(arms[0])
+    def __init__(self, arms, mine):
+        super().__init__(arms[0], mine)
         self.arms = {arm.name: arm for arm in arms}
         self.joints = joint_sliders(max(arms, key=lambda arm: arm.n))
         self.show(self.robot)
@@ -44,6 +67,7 @@ class _Conventions(Explorer):
         """The arm with its tool frame and both sets of DH frames, each fixed to a link."""
         self.robot, scene = robot, self.scene
         scene.remove("/ck/robot")
+        scene.remove(ROOT)
         self.arm = scene.robot(robot)
         scene.frame(self.arm.link(robot.n) + "/tool", robot.M, letter="tool")
         self.frames = {}
@@ -81,6 +105,93 @@ class _Conventions(Explorer):
         matrices = np.array(list(poses.values()))
         apart = float(np.max(matrices.max(axis=0) - matrices.min(axis=0)))
         return "\n".join([*lines, f"largest difference between any two matrix entries: {apart:.1e}"])
+
+    # -- the arm by the student's functions
+
+    def yours(self, name, values):
+        """The frames of all links by this function, beside the right ones."""
+        frames = {
+            "dh_transform": self._by_links,
+            "mdh_transform": self._by_links,
+            "fk_dh": self._by_table,
+            "screw_exp": self._by_exponentials,
+            "fk_poe": self._by_screws,
+            "screws_from_dh": self._by_rows,
+        }[name]
+        sketch = Sketch(self.scene, name, "yours" if len(self.mine.functions) == 1 else f"yours: {name}")
+        return sketch.poses(self.robot, *frames(name, values["theta"]))
+
+    def _by_screws(self, name, theta):
+        """Mine, right, at zero. Link k moves by the first k screws from where its frame stands at zero."""
+        at_zero = self.robot.link_frames(np.zeros(self.robot.n))
+        mine = [
+            self.mine.ask(name, self.robot.S[:, : k + 1], M, theta[: k + 1]) for k, M in enumerate(at_zero)
+        ]
+        return np.array(mine), self.robot.link_frames(theta), at_zero
+
+    def _by_exponentials(self, name, theta):
+        at_zero = self.robot.link_frames(np.zeros(self.robot.n))
+        turns = [self.mine.ask(name, S, float(q)) for S, q in zip(self.robot.S.T, theta, strict=True)]
+        return _product(np.eye(4), turns) @ at_zero, self.robot.link_frames(theta), at_zero
+
+    def _by_links(self, name, theta):
+        table = self._table("standard" if name == "dh_transform" else "modified")
+        links = [self.mine.ask(name, *map(float, row)) for row in _rows(table, theta)]
+        return self._with_tool(table, theta, _product(table.base, links))
+
+    def _by_table(self, name, theta):
+        table = self._table("standard", turning=True)
+        rows, (n, one) = _rows(table), (len(theta), np.eye(4))
+        mine = [self.mine.ask(name, rows[:k], theta[:k], table.base, one) for k in range(1, n)]
+        mine += [self.mine.ask(name, rows, theta, table.base, table.tool)]
+        return np.array(mine), *_right(table, theta)
+
+    def _by_rows(self, name, theta):
+        table = self._table("modified", turning=True)
+        S = self.mine.ask(name, _rows(table), table.base)
+        if S.shape != self.robot.S.shape:
+            raise Trouble(f"it returns {S.shape[1]} screws for {self.robot.n} rows")
+        at_zero = self.robot.link_frames(np.zeros(self.robot.n))
+        moved = _product(np.eye(4), lie.exp6(S.T * theta[:, None]))
+        return moved @ at_zero, self.robot.link_frames(theta), at_zero
+
+    def _with_tool(self, table, theta, frames):
+        frames[-1] = frames[-1] @ table.tool
+        return frames, *_right(table, theta)
+
+    def _table(self, convention, turning=False):
+        """The robot's table of this convention; Trouble where it has none, or `turning` joints slide."""
+        table = _tables(self.robot).get(convention)
+        if table is None:
+            raise Trouble(f"{self.robot.name} has no {convention} DH table to try it on")
+        if turning and "prismatic" in table.joint_types:
+            raise Trouble(f"it is for joints that turn, and one of {self.robot.name} slides")
+        return table
+
+
+def _rows(table: dh.Table, q: ArrayLike | None = None) -> np.ndarray:
+    """(n, 4): a, alpha, d, theta; at q, or of the table alone."""
+    turns = np.array(table.joint_types) == "revolute"
+    moved: Any = np.zeros(table.n) if q is None else q
+    return np.column_stack(
+        [table.a, table.alpha, table.d + np.where(turns, 0, moved), table.theta + np.where(turns, moved, 0)]
+    )
+
+
+def _right(table, theta):
+    """The frames of a table at theta and at zero, (n, 4, 4), that of the tool last."""
+    frames = table.frames(np.array([theta, np.zeros(table.n)]))
+    frames[:, -1] = frames[:, -1] @ table.tool
+    return frames
+
+
+def _product(first, factors):
+    """first A_1, first A_1 A_2, ...: (n, 4, 4)."""
+    products, T = [], first
+    for A in factors:
+        T = T @ A
+        products.append(T)
+    return np.array(products)
 
 
 def _tables(robot):

@@ -37,7 +37,7 @@ def explore_inverse(robot: Robot | None = None, height: int = 470) -> Panel:
 class _Inverse(Explorer):
     """The target, its solutions, the branch that is shown and Newton's run."""
 
-    name, title = "inverse", "Explorer of inverse kinematics"
+    name, title, opener = "inverse", "Explorer of inverse kinematics", "explore_inverse"
 
     def __init__(self, robot):
         super().__init__(robot)

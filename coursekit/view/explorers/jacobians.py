@@ -45,7 +45,7 @@ def explore_jacobians(robot: Robot | None = None, height: int = 470) -> Panel:
 class _Jacobians(Explorer):
     """The ellipsoids of the arm as it stands; Newton and damped least squares from there to the target."""
 
-    name, title = "jacobians", "Explorer of Jacobian methods"
+    name, title, opener = "jacobians", "Explorer of Jacobian methods", "explore_jacobians"
     computed = ("/ck/linear", "/ck/angular")
 
     def __init__(self, robot):

@@ -43,7 +43,7 @@ def explore_path(robot: Robot | None = None, points: ArrayLike | None = None, he
 class _Path(Explorer):
     """The arm on the path: all branches at every sampling asked for so far, and the one that is shown."""
 
-    name, title = "path", "Explorer of the path"
+    name, title, opener = "path", "Explorer of the path", "explore_path"
 
     def __init__(self, robot, curve):
         super().__init__(robot)

@@ -1,5 +1,7 @@
 """Notebook 02: one joint after the other at the home pose, from the axis and a point on it to the screw."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from coursekit.kinematics import dh, lie, robots
@@ -7,10 +9,13 @@ from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Choice, Slider
 from coursekit.view.explorers import Explorer
+from coursekit.view.mine import ROOT, ZERO, Sketch, Trouble, apart, gap, size
 from coursekit.view.panel import Panel
 
 
-def explore_screws(robot: Robot | None = None, height: int = 470) -> Panel:
+def explore_screws(
+    robot: Robot | None = None, height: int = 470, mine: Callable | list | dict | None = None
+) -> Panel:
     """Open the explorer of screws: a joint axis, a point q on it, v = -w x q, and the column of S or B.
 
     The arm stands at zero and only the chosen joint turns. The point q can be slid along its axis, and the
@@ -20,18 +25,31 @@ def explore_screws(robot: Robot | None = None, height: int = 470) -> Panel:
     ----------
     robot : Robot, optional
         An arm with revolute joints; the KUKA KR6 where none is given. ValueError for a sliding joint.
+    mine : function, list or dict of functions, optional
+        What you wrote, on the arm: screw_axis, axis_of, body_screws, home_pose (of the ABB), and the screws
+        that you read off a drawing, {"S": S} with S (6, n). Each axis gets a tick where it is right; the
+        chosen joint turns the translucent rest of the arm about *your* axis.
+
+    >>> import numpy as np
+    >>> from coursekit import robots, view
+    >>> def screw_axis(w, q):
+    ...     return np.concatenate([w, np.cross(w, q)]) / np.linalg.norm(w)
+    >>> panel = view.explore_screws(robots.kuka_kr6(), mine=screw_axis)
+    >>> panel.line.value.splitlines()[-1][:75]
+    'yours, screw_axis: off: joints 2, 3, 4, 5, 6. Joint 2: the axes are 801.6 mm'
+    >>> panel.close()
     """
     robot = robots.kuka_kr6() if robot is None else robot
     if "prismatic" in robot.joint_types:
         raise ValueError(f"{robot.name} has a prismatic joint: this explorer shows revolute joints only")
-    return _Screws(robot).open(height)
+    return _Screws(robot, mine).open(height)
 
 
 class _Screws(Explorer):
-    name, title = "screws", "Explorer of screws"
+    name, title, opener = "screws", "Explorer of screws", "explore_screws"
 
-    def __init__(self, robot):
-        super().__init__(robot)
+    def __init__(self, robot, mine):
+        super().__init__(robot, mine)
         self.frames = _frames(robot)
         self.turn = Slider("turn", 0.0, -np.pi, np.pi, unit="deg", label="turn this joint")
         self.origins = robot.link_frames(np.zeros(robot.n))[:, :3, 3]
@@ -78,6 +96,108 @@ class _Screws(Explorer):
                 f"tool at {text.millimetres(tool)} after {text.degrees(values['turn'])}",
             ]
         )
+
+    # -- the axes by the student's functions
+
+    def yours(self, name, values):
+        sketch = Sketch(self.scene, name, "yours" if len(self.mine.functions) == 1 else f"yours: {name}")
+        if name == "home_pose":
+            return self._home(sketch)
+        S, i = self._screws(name), values["joint"]
+        if S.shape != self.robot.S.shape:
+            raise Trouble(f"it gives {S.shape[1]} screws, and {self.robot.name} has {self.robot.n} joints")
+        off = [k for k in range(self.robot.n) if np.abs(S[:, k] - self.robot.S[:, k]).max() > ZERO]
+        for k in range(self.robot.n):
+            self._axis(sketch, k, S[:, k], k in off, k == i)
+        self._turn(sketch, S[:, i] * values["turn"], i)
+        if not off:
+            return "all axes agree with the arm's, below 1e-9"
+        listed = f"joint{'s' if len(off) > 1 else ''} {', '.join(str(k + 1) for k in off)}"
+        return f"off: {listed}" + (f". Joint {i + 1}: {_between(S[:, i], self.S)}" if i in off else "")
+
+    def _screws(self, name):
+        """The screws in the space frame, (6, n), by what the student wrote."""
+        robot = self.robot
+        if name == "body_screws":
+            return lie.adjoint(robot.M) @ self.mine.ask(name, robot.S, robot.M)
+        if name == "axis_of":
+            axes = [self.mine.ask(name, S) for S in robot.S.T]
+            return np.array([[*w, *(h * w - np.cross(w, q))] for w, q, h in axes]).T
+        if name == "screw_axis":
+            w, lever = robot.S[:3].T, np.cross(robot.S[:3].T, robot.S[3:].T)
+            points = lever + w * np.sum(w * (self.origins - lever), axis=1, keepdims=True)
+            pairs = zip(2 * w, points, strict=True)  # w may come in any length
+            return np.array([self.mine.ask(name, *pair) for pair in pairs]).T
+        return self.mine.ask(name)
+
+    def _axis(self, sketch, k, S, is_off, is_chosen):
+        """The axis of joint k: an arrow where it is off, a tick where it is right."""
+        key, label = f"axis{k + 1}", f"S{k + 1}"
+        long, w, v = np.linalg.norm(S[:3]), S[:3], S[3:]
+        if long < 1e-6:
+            sketch.scene.remove(f"{sketch.path}/{key}")
+            return
+        unit = np.concatenate([w, v]) / long
+        point = np.cross(unit[:3], unit[3:])
+        at = self.q if is_chosen else self.origins[k]
+        right = point if sketch.near(point) else at
+        tick = "" if is_off else " \N{CHECK MARK}"
+        if not sketch.near(point) or not (is_off or is_chosen):
+            sketch.scene.point(f"{sketch.path}/{key}", at, label + tick, self._color(is_off))
+            return
+        start = right + unit[:3] * (unit[:3] @ (at - right))
+        sketch.scene.screw_axis(
+            f"{sketch.path}/{key}", unit, label=f"{sketch.label} {label}{tick}", at=start, color="accent"
+        )
+        if is_chosen:
+            sketch.gap("gap", at, start)
+
+    def _color(self, is_off):
+        return "accent" if is_off else "y"
+
+    def _turn(self, sketch, xi, i):
+        """The chosen joint and what it carries, turned about the student's axis."""
+        moved, n = lie.exp6(xi), self.robot.n
+        if sketch.near(moved[:3, 3]):
+            sketch.arm(self.robot, np.array([moved if k >= i else np.eye(4) for k in range(n)]))
+        else:
+            sketch.scene.remove(f"{sketch.path}/arm")
+
+    def _home(self, sketch):
+        """The tool frame at zero, for the arm with those five lengths."""
+        table = self.robot.standard_dh
+        if not self.robot.name.startswith("ABB IRB 1200"):
+            raise Trouble("it is the home pose of the ABB: open this with robots.abb_irb1200()")
+        lengths = np.array([table.d[0], table.a[1], table.a[2], table.d[3], table.d[5]])
+        T, M = self.mine.ask("home_pose", lengths), self.robot.M
+        off, turned = apart(T, M)
+        if sketch.near(T[:3, 3]) and not np.isnan(turned):
+            sketch.frame("tool", T, sketch.label + ("" if max(off, turned) > ZERO else " \N{CHECK MARK}"))
+            sketch.gap("gap", M[:3, 3], T[:3, 3])
+        else:
+            sketch.scene.remove(f"{ROOT}/home_pose")
+        return f"your tool frame at zero and the arm's: {gap(off, turned)}"
+
+
+def _between(S, right):
+    """How a screw differs from the right one, in words."""
+    long = np.linalg.norm(S[:3])
+    if long < 1e-6:
+        return "its first three numbers, the direction, are zero"
+    parts = []
+    if abs(long - 1) > 1e-6:
+        parts.append(f"the direction has length {size(long)}, not 1")
+    unit, w = S / long, right[:3]
+    angle = np.arctan2(np.linalg.norm(np.cross(unit[:3], w)), unit[:3] @ w)
+    if angle > ZERO:
+        parts.append(f"the direction is {gap(0, angle)} away")
+    foot, right_foot = np.cross(unit[:3], unit[3:]), np.cross(w, right[3:])
+    beside = foot - right_foot
+    distance = np.linalg.norm(beside - w * (w @ beside))
+    if angle <= ZERO and distance > ZERO:
+        parts.append(f"the axes are {gap(distance)} apart")
+    v = np.linalg.norm(S[3:] - right[3:])
+    return "; ".join([*parts, f"v is off by {size(1000 * v)} mm per rad"])
 
 
 def _frames(robot):

@@ -44,7 +44,7 @@ def explore_singularities(robot: Robot | None = None, height: int = 470) -> Pane
 
 
 class _Singularities(Explorer):
-    name, title = "singularities", "Explorer of singularities"
+    name, title, opener = "singularities", "Explorer of singularities", "explore_singularities"
     computed = ("/ck/lost", "/ck/meets_all")
 
     def __init__(self, arms):
