@@ -41,7 +41,7 @@ def explore(
     ...     return M
     >>> panel = view.explore(robots.planar_2r(), theta=[0, 1], mine=fk_poe)
     >>> print(panel.line.value.splitlines()[-1])
-    yours, fk_poe: frame 2 is the first that is off, by 239.7 mm and 57.3 deg
+    yours, fk_poe: all frames before the tool are right; the tool is off by 239.7 mm and 57.3 deg
     >>> panel.close()
     """
     arms = [robot] if robot else [arm for arm in robots.all().values() if _tables(arm)]
