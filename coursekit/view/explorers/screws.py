@@ -35,7 +35,7 @@ def explore_screws(
     >>> def screw_axis(w, q):
     ...     return np.concatenate([w, np.cross(w, q)]) / np.linalg.norm(w)
     >>> panel = view.explore_screws(robots.kuka_kr6(), mine=screw_axis)
-    >>> panel.line.value.splitlines()[-1][:75]
+    >>> panel.line.value.splitlines()[-1][:76]
     'yours, screw_axis: off: joints 2, 3, 4, 5, 6. Joint 2: the axes are 801.6 mm'
     >>> panel.close()
     """
