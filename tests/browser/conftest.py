@@ -3,24 +3,17 @@
 Where there is no browser the tests are skipped with the reason; with CI=true they fail instead.
 """
 
-import os
-
 import pytest
 
 from tests.browser.lab import CHROMIUM_FLAGS, Lab, Notebook, chromium
+from tests.needs import absent, needed
 
 
 @pytest.fixture(scope="session")
 def browser():
-    missing = None
-    try:
-        from playwright.sync_api import sync_playwright
-    except ImportError:
-        missing = "playwright is not installed (pip install -r tests/requirements.txt)"
-    if not missing and not chromium():
-        missing = "no Chromium on the PATH (set CHROMIUM to its path)"
-    if missing:
-        (pytest.fail if os.environ.get("CI") == "true" else pytest.skip)(missing)
+    sync_playwright = needed("playwright.sync_api").sync_playwright
+    if not chromium():
+        absent("no Chromium on the PATH (set CHROMIUM to its path)")
     with sync_playwright() as playwright:
         running = playwright.chromium.launch(executable_path=chromium(), args=list(CHROMIUM_FLAGS))
         yield running

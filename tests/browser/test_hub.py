@@ -7,7 +7,6 @@ server, a port or an address of its own. It is no model for a real hub.
 import os
 import shutil
 import sys
-from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +14,7 @@ import pytest
 
 from coursekit import robots
 from tests.browser.lab import Notebook, Server, free_port
+from tests.needs import absent, needed
 
 pytestmark = [pytest.mark.browser, pytest.mark.hub]
 
@@ -65,14 +65,10 @@ class Account:
 
 @pytest.fixture(scope="module")
 def hub(tmp_path_factory):
-    missing = None
+    needed("jupyterhub")
     proxy = shutil.which("configurable-http-proxy", path=os.pathsep.join([str(PROXY), os.environ["PATH"]]))
-    if not find_spec("jupyterhub"):
-        missing = "jupyterhub is not installed (pip install -r tests/requirements.txt)"
-    elif not proxy:
-        missing = "no configurable-http-proxy (npm install --prefix .venv/proxy configurable-http-proxy)"
-    if missing:
-        (pytest.fail if os.environ.get("CI") == "true" else pytest.skip)(missing)
+    if not proxy:
+        absent("no configurable-http-proxy (npm install --prefix .venv/proxy configurable-http-proxy)")
     running = Hub(tmp_path_factory.mktemp("hub"), proxy)
     yield running
     running.close()

@@ -23,6 +23,7 @@ from coursekit.classroom.grader.box import bubblewrap
 from coursekit.classroom.grader.journal import Journal
 from coursekit.classroom.grader.worker import RUNNER
 from tests.classroom.small import COURSE, HERE, NAME, ROOT, grade_small, hand_in, points, records
+from tests.needs import needed
 
 needs_box = pytest.mark.skipif(
     not bubblewrap() and not os.environ.get("CI"), reason="bubblewrap does not work here"
@@ -276,7 +277,7 @@ def test_a_failure_of_the_grader_is_no_grade(tmp_path, solved, monkeypatch):
 
 @needs_box
 def test_a_dask_cluster_takes_the_jobs_unchanged(tmp_path, solved):
-    distributed = pytest.importorskip("distributed")
+    distributed = needed("distributed")
     hand_in(tmp_path / "in", "ann", solved)
     hand_in(tmp_path / "in", "bob", wrong_fk(solved))
     options = {"n_workers": 2, "threads_per_worker": 1, "processes": True, "dashboard_address": None}

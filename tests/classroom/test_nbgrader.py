@@ -15,6 +15,7 @@ import pytest
 from coursekit.classroom.author import nbgrader, notebook
 from coursekit.classroom.course import Course, the_course
 from tests.classroom.small import COURSE
+from tests.needs import needed
 
 
 @pytest.fixture
@@ -45,7 +46,7 @@ def run(folder, *command):
 
 
 def test_nbgrader_generates_and_grades_it(tmp_path, short_course):
-    pytest.importorskip("nbgrader")
+    needed("nbgrader")
     course = tmp_path / "course"
     nbgrader.export(course, short_course)
     path = short_course.notebook("nb01")

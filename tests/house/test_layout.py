@@ -137,7 +137,7 @@ def test_nothing_names_a_developers_machine_or_is_left_to_do():
 # -- the environment
 
 
-@pytest.mark.parametrize("path", ["environment.txt", "tests/requirements.txt"])
+@pytest.mark.parametrize("path", ["environment.txt", "tests/requirements.txt", "tests/requirements-ci.txt"])
 def test_every_line_is_an_exact_pin(path):
     lines = pins(path)
     if path == "environment.txt":
