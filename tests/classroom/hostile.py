@@ -420,7 +420,7 @@ from coursekit.classroom import course
 from coursekit.classroom.author import tables
 return tables.solutions(course.the_course(), "nb01").fk(theta, l1, l2)
 """,
-    "ImportError",
+    "dtype object",
 )
 fk_kind(
     "the_library_for_the_answer",

@@ -21,7 +21,7 @@ from coursekit.classroom.course import Course
 from coursekit.classroom.grader import box, grade
 from coursekit.classroom.grader.box import bubblewrap
 from coursekit.classroom.grader.journal import Journal
-from coursekit.classroom.grader.worker import RUNNER
+from coursekit.classroom.grader.locked import INSIDE
 from tests.classroom.small import COURSE, HERE, NAME, ROOT, grade_small, hand_in, points, records
 from tests.needs import needed
 
@@ -88,7 +88,7 @@ def test_in_the_box_a_course_below_tmp_is_seen(tmp_path, monkeypatch):
     visible = box._visible()
     monkeypatch.setattr(box, "_visible", lambda: [*visible, str(tmp_path / "python")])
 
-    (tmp_path / "library" / "runner.py").write_text(RUNNER.read_text())
+    (tmp_path / "library" / "runner.py").write_text((INSIDE / "runner.py").read_text())
     one = box.Box(tmp_path / "library", box.Limits(), bubblewrap())
     try:
         cell = f"def said():\n    return len(open({str(tmp_path / 'python')!r}).read())"

@@ -7,6 +7,7 @@ nothing of the host that can be written. It is talked to over two pipes, in JSON
 from __future__ import annotations
 
 import contextlib
+import importlib.util
 import json
 import os
 import secrets
@@ -19,9 +20,8 @@ import tempfile
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
-
-from ..course import PACKAGE
 
 GRACE = 2.0  # seconds for the box to say itself that its time is over
 LOOK = 0.2  # seconds between two looks at what the box uses
@@ -199,8 +199,8 @@ def _command(library: Path, limits: Limits, program: str | None, home: str) -> l
         "OMP_NUM_THREADS": "1",
         "OPENBLAS_NUM_THREADS": "1",
     }
-    runner = library / "runner.py"
-    python = [sys.executable, "-s", "-B", str(runner), str(library)]
+    python = [sys.executable, "-s"] if program is None else [os.path.realpath(sys.executable), "-I", "-S"]
+    python += ["-B", str(library / "runner.py"), *([] if program is None else [PACKAGES])]
     if shutil.which("prlimit"):
         asked = {"as": limits.memory, "fsize": limits.home, "cpu": limits.cpu, "nproc": limits.processes}
         python = ["prlimit", *(f"--{name}={value}" for name, value in {**asked, "core": 0}.items()), *python]
@@ -215,8 +215,10 @@ def _command(library: Path, limits: Limits, program: str | None, home: str) -> l
     box += ["--size", str(limits.home), "--tmpfs", "/tmp", "--size", str(limits.home), "--tmpfs", "/dev/shm"]
     for path in _visible():
         box += ["--ro-bind", path, path]
-    if "site-packages" in PACKAGE.parts:  # installed, not beside its notebooks: hide the real library
-        box += ["--tmpfs", str(PACKAGE)]
+    for path in _other_packages():  # of another Python, or installed beside the course: not for students
+        box += ["--tmpfs", path, "--remount-ro", path]
+    for package in _packages():
+        box += ["--ro-bind", str(package), f"{PACKAGES}/{package.name}"]
     for name, value in environment.items():
         box += ["--setenv", name, value]
     for fonts in _font_lists():  # finding all fonts anew would cost every box seconds
@@ -228,12 +230,38 @@ def _command(library: Path, limits: Limits, program: str | None, home: str) -> l
 _OF_THE_HOST = ("/proc/sys", "/proc/sysrq-trigger", "/proc/irq", "/proc/bus", "/proc/fs", "/proc/acpi")
 
 
+# All of Python's libraries that the box has. The course's own, and robotics by others, would give answers.
+LIBRARIES = ("numpy", "sympy", "mpmath", "matplotlib", "mpl_toolkits", "contourpy", "cycler")
+NEEDED = ("dateutil", "six", "fontTools", "kiwisolver", "packaging", "PIL", "pyparsing")  # by those
+PACKAGES = "/packages"  # where they lie in the box
+
+
 def _visible() -> list[str]:
     """What a Python needs, and nothing of the course (whose environment may keep JupyterLab's tokens)."""
     system = ["/usr", "/bin", "/lib", "/lib64", "/etc/ld.so.cache", "/etc/fonts"]
-    parts = ("bin", "lib", "lib64", "pyvenv.cfg")
-    python = sorted(f"{prefix}/{part}" for prefix in {sys.prefix, sys.base_prefix} for part in parts)
-    return [path for path in [*system, *python] if os.path.exists(path)]
+    own = [f"{sys.prefix}/bin", f"{sys.prefix}/pyvenv.cfg"]
+    python = [f"{sys.base_prefix}/{part}" for part in ("bin", "lib", "lib64")]
+    return [path for path in dict.fromkeys([*system, *own, *python]) if os.path.exists(path)]
+
+
+@cache
+def _packages() -> list[Path]:
+    """Their folders and files, wherever they are installed, and the shared objects they bring."""
+    found = []
+    for name in (*LIBRARIES, *NEEDED):
+        spec = importlib.util.find_spec(name)
+        if spec is not None and (places := spec.submodule_search_locations or [spec.origin or ""]):
+            path = Path(next(iter(places)))
+            found += [path, *path.parent.glob(f"{'pillow' if name == 'PIL' else name}.libs")]
+    return found
+
+
+@cache
+def _other_packages() -> list[str]:
+    """Folders of installed packages that lie in what is visible."""
+    roots = {f"{prefix}/lib" for prefix in (sys.base_prefix, "/usr", "/usr/local")}
+    found = [path for root in roots for path in Path(root).glob("python3*/*-packages")]
+    return sorted(map(str, found))
 
 
 def _font_lists() -> list[Path]:

@@ -1,76 +1,42 @@
 """A copy of coursekit in which the answers are missing: what the grading box has in place of the library.
 
-Functions of coursekit.kinematics that the exercises do not allow lose their bodies. What allowed functions
-need in turn stays, but answers to callers inside the library only. `view` and `check` do nothing.
+Of coursekit.kinematics only the functions that the exercises allow are there, and what those need in turn.
+Everything else is cut out of the files, not hidden: every other name is an `Absent` that says so. Robots are
+tables of numbers. `view` and `check` are stand-ins of the runner.
 """
 
 from __future__ import annotations
 
 import ast
+import json
+from collections.abc import Iterable
+from dataclasses import fields
 from pathlib import Path
+
+import numpy as np
+
+from coursekit import robots
+from coursekit.kinematics import dh
 
 from ..course import PACKAGE
 from ..library import permitted
 
-# Added to every module of the copy. A frame of "<string>" is the __init__ that a dataclass generates.
-GUARD = """
-class LibraryLocked(Exception):
-    pass
-
-
-def _locked(name):
-    raise LibraryLocked("your function calls coursekit's own " + name + "; write it yourself")
-
-
-def _inside(name):
-    import sys
-
-    frame = sys._getframe(2)
-    while frame is not None and frame.f_code.co_filename == "<string>":
-        frame = frame.f_back
-    if frame is None or not frame.f_globals.get("__name__", "").startswith("coursekit.kinematics"):
-        _locked(name)
-"""
-
-NOTHING = '''
-class Nothing:
-    """Takes every call and every name, and does nothing."""
-
-    def __call__(self, *args, **kwargs):
-        return Nothing()
-
-    def __getattr__(self, name):
-        if name.startswith("__"):
-            raise AttributeError(name)
-        return Nothing()
-
-    def __iter__(self):
-        return iter(())
-
-    def __str__(self):
-        return ""
-
-    __repr__ = __str__
-
-
-def __getattr__(name):
-    if name.startswith("__"):
-        raise AttributeError(name)
-    return Nothing()
-'''
+INSIDE = Path(__file__).with_name("inside")
+REPLACED = ("robot", "robots", "absent")  # modules of coursekit.kinematics that the box has others for
+_IMPORT = "from coursekit.kinematics import absent as _absent"
+_Node = tuple[str, str]  # a module and the name of something at its top: ("lie", "hat3")
 
 
 def locked_files(allowed: tuple[str, ...]) -> dict[str, str]:
     """{path: text} of a package coursekit in which only the allowed names of coursekit.kinematics work."""
-    files = {
-        "coursekit/__init__.py": (PACKAGE / "__init__.py").read_text("utf-8"),
-        "coursekit/classroom/__init__.py": "def check(*args, **kwargs):\n    pass\n",
-        "coursekit/view/__init__.py": NOTHING,
+    files = {name: (PACKAGE / name).read_text("utf-8") for name in ("__init__.py", "view/text.py")}
+    files["kinematics/robots.json"] = json.dumps({name: _sheet(one) for name, one in robots.all().items()})
+    for name, source in locked_sources(allowed).items():
+        files[f"kinematics/{name}"] = source
+    return {
+        **{f"coursekit/{name}": text for name, text in files.items()},
+        "runner.py": (INSIDE / "runner.py").read_text("utf-8"),
     }
-    text = PACKAGE / "view" / "text.py"  # prints numbers: notebooks use it everywhere, and it knows nothing
-    files["coursekit/view/text.py"] = text.read_text("utf-8")
-    sources = locked_sources(allowed)
-    return files | {f"coursekit/kinematics/{name}": source for name, source in sources.items()}
 
 
 def write_files(files: dict[str, str], folder: Path) -> None:
@@ -84,72 +50,129 @@ def locked_sources(allowed: tuple[str, ...]) -> dict[str, str]:
     """{file name: source} of the locked coursekit.kinematics, folders in it too."""
     room = PACKAGE / "kinematics"
     paths = {path.relative_to(room).as_posix(): path for path in room.rglob("*.py")}
-    trees = {name: ast.parse(path.read_text("utf-8")) for name, path in paths.items()}
-    functions = [f for name, tree in trees.items() for f in _functions(_module(name), tree)]
-    needed = _needed(trees, functions, allowed)
-    for name, function in functions:
-        if permitted(name, allowed):
-            continue
-        kept = function.name in needed
-        call = f"_inside({name!r})" if kept else f"_locked({name!r})"
-        body = _without_docstring(function.body) if kept else []
-        function.body = ast.parse(call).body + body
-    for tree in trees.values():
-        first = 1 if ast.get_docstring(tree) is not None else 0
-        while first < len(tree.body) and _is_future(tree.body[first]):
-            first += 1
-        tree.body[first:first] = ast.parse(GUARD).body
-    return {name: ast.unparse(tree) for name, tree in trees.items()}
+    paths |= {f"{name}.py": INSIDE / f"{name}.py" for name in REPLACED}
+    modules = {_module(name): _Module(path, allowed, _module(name)) for name, path in paths.items()}
+    reached = _reached(modules, allowed)
+    return {
+        name: modules[_module(name)].cut(
+            {what for module, what in reached if module == _module(name)}, modules
+        )
+        for name in paths
+    }
+
+
+class _Module:
+    """One file of the library: its statements by the names that they define."""
+
+    def __init__(self, path: Path, allowed: tuple[str, ...], name: str) -> None:
+        self.name, self.allowed, self.whole = name, allowed, name in REPLACED
+        self.folder = name.split(".")[: None if path.name == "__init__.py" else -1]
+        self.tree = ast.parse(path.read_text("utf-8"))
+        self.imported: dict[str, _Node] = {}
+        self.defined: dict[str, ast.stmt] = {}
+        for node in self.tree.body:
+            if isinstance(node, ast.ImportFrom) and (owner := self._owner(node)):
+                for alias in node.names:
+                    self.imported[alias.asname or alias.name] = (owner.removeprefix("."), alias.name)
+            for what in _defines(node):
+                self.defined[what] = node
+            if self.whole and isinstance(node, ast.ClassDef):
+                node.body = [m for m in node.body if not self._is_cut(node, m)]
+
+    def _owner(self, node: ast.ImportFrom) -> str:
+        """ ".lie" if something is imported from the library's lie, "." if lie itself is, "" if neither."""
+        if node.level == 0:
+            inner = (node.module or "").removeprefix("coursekit.kinematics")
+            return "" if inner == node.module else inner or "."
+        folder = self.folder[: len(self.folder) - node.level + 1]
+        return ".".join(["", *folder, *([node.module] if node.module else [])]) or "."
+
+    def _is_cut(self, owner: ast.ClassDef, node: ast.stmt) -> bool:
+        if not isinstance(node, ast.FunctionDef) or node.name.startswith("_"):
+            return False
+        return not permitted(f"{self.name}.{owner.name}.{node.name}", self.allowed)
+
+    def needs(self, what: str, modules: dict[str, _Module]) -> set[_Node]:
+        """What of the library a statement names."""
+        found: set[_Node] = set()
+        for node in ast.walk(self.defined[what]):
+            if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+                owner, name = self.imported.get(node.value.id, ("", ""))
+                module = f"{owner}.{name}".strip(".")
+                if module in modules:
+                    found.add((module, node.attr))
+            if isinstance(node, ast.Name):
+                found.add((self.name, node.id))
+                found.add(self.imported.get(node.id, ("", "")))
+        return {
+            (module, name) for module, name in found if name in getattr(modules.get(module), "defined", ())
+        }
+
+    def cut(self, kept: set[str], modules: Iterable[str]) -> str:
+        """The file with these definitions only; all other names are Absent."""
+        if self.name == "absent":
+            return ast.unparse(self.tree)
+        body = []
+        for node in self.tree.body:
+            names = _defines(node)
+            if self.whole or kept & set(names):
+                body.append(self._guarded(node))
+            elif isinstance(node, ast.ImportFrom | ast.Import):
+                body.append(node)
+        tree = ast.Module(body, [])
+        used = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+        for node in [node for node in body if isinstance(node, ast.ImportFrom | ast.Import)]:
+            future = isinstance(node, ast.ImportFrom) and node.module == "__future__"
+            node.names = [a for a in node.names if future or (a.asname or a.name).split(".")[0] in used]
+            if not node.names:
+                body.remove(node)
+        if "__getattr__" not in self.defined and self.name != "__init__":
+            below = [
+                name.removeprefix(f"{self.name}.") for name in modules if name.startswith(f"{self.name}.")
+            ]
+            arguments = ", ".join(map(repr, [self.name, *sorted(below)]))
+            tree.body += ast.parse(f"{_IMPORT}\n__getattr__ = _absent.names_of({arguments})").body
+        return ast.unparse(tree) + "\n"
+
+    def _guarded(self, node: ast.stmt) -> ast.stmt:
+        """A function that others need, but that is not on the list, says so to a student's function."""
+        if not isinstance(node, ast.FunctionDef) or node.name.startswith("_") or self.whole:
+            return node
+        name = f"{self.name}.{node.name}"
+        if not permitted(name, self.allowed):
+            guard = ast.parse(f"{_IMPORT}\n_absent.only_inside({name!r})").body
+            node.body = guard + _without_docstring(node.body)
+        return node
+
+
+def _reached(modules: dict[str, _Module], allowed: tuple[str, ...]) -> set[_Node]:
+    """What is allowed, and everything that it needs in turn."""
+    waiting = [
+        (name, what)
+        for name, module in modules.items()
+        for what, node in module.defined.items()
+        if module.whole or (isinstance(node, ast.FunctionDef) and permitted(f"{name}.{what}", allowed))
+    ]
+    reached: set[_Node] = set()
+    while waiting:
+        module, what = node = waiting.pop()
+        if node not in reached:
+            reached.add(node)
+            waiting += modules[module].needs(what, modules)
+    return reached
+
+
+def _defines(node: ast.stmt) -> list[str]:
+    """The names that a statement at the top of a file defines; none if it only imports."""
+    if isinstance(node, ast.FunctionDef | ast.ClassDef):
+        return [node.name]
+    targets = node.targets if isinstance(node, ast.Assign) else [getattr(node, "target", None)]
+    return [one.id for one in targets if isinstance(one, ast.Name)]
 
 
 def _module(name: str) -> str:
     """ "ik/engine.py" -> "ik.engine", the name that `library_call` gives its functions."""
     return name.removesuffix(".py").removesuffix("/__init__").replace("/", ".")
-
-
-def _functions(module: str, tree: ast.Module) -> list[tuple[str, ast.FunctionDef]]:
-    """("robot.Robot.fk", its definition) for all functions of a module and methods of its classes."""
-    found = []
-    for node in tree.body:
-        if isinstance(node, ast.FunctionDef):
-            found.append((f"{module}.{node.name}", node))
-        if isinstance(node, ast.ClassDef):
-            methods = [m for m in node.body if isinstance(m, ast.FunctionDef)]
-            found += [(f"{module}.{node.name}.{m.name}", m) for m in methods]
-    return found
-
-
-def _needed(trees: dict, functions: list, allowed: tuple[str, ...]) -> set[str]:
-    """Names of functions that allowed ones, or an import, may reach: found by name, so rather too many."""
-    bodies = {id(function) for _, function in functions}
-    names = set().union(*(_names(tree, bodies) for tree in trees.values()))  # what importing runs
-    waiting = [f for name, f in functions if permitted(name, allowed)]
-    waiting += [f for _, f in functions if f.name in ("__init__", "__post_init__")]
-    reached = set()
-    while waiting:
-        function = waiting.pop()
-        if id(function) not in reached:
-            reached.add(id(function))
-            names |= _names(function, set())
-            waiting += [f for _, f in functions if f.name in names and id(f) not in reached]
-    return names | {"__init__", "__post_init__"}
-
-
-def _names(node: ast.AST, skip: set[int]) -> set[str]:
-    """All identifiers below a node, leaving out the bodies of the functions in `skip`."""
-    found = set()
-    waiting = [node]
-    while waiting:
-        node = waiting.pop()
-        if isinstance(node, ast.Name):
-            found.add(node.id)
-        elif isinstance(node, ast.Attribute):
-            found.add(node.attr)
-        if isinstance(node, ast.FunctionDef) and id(node) in skip:
-            waiting += [*node.decorator_list, node.args]
-        else:
-            waiting += ast.iter_child_nodes(node)
-    return found
 
 
 def _without_docstring(body: list) -> list:
@@ -158,5 +181,13 @@ def _without_docstring(body: list) -> list:
     return body[1:] if is_text and isinstance(first.value.value, str) else body
 
 
-def _is_future(node: ast.AST) -> bool:
-    return isinstance(node, ast.ImportFrom) and node.module == "__future__"
+def _sheet(robot: robots.Robot) -> dict:
+    """What a robot was made from, as plain data; what follows from it is not among that."""
+    given = {one.name: _plain(getattr(robot, one.name)) for one in fields(robot) if one.init}
+    return {**given, "n": robot.n}
+
+
+def _plain(value):
+    if isinstance(value, dh.Table):
+        return {one.name: _plain(getattr(value, one.name)) for one in fields(value) if one.init}
+    return value.tolist() if isinstance(value, np.ndarray) else value

@@ -31,8 +31,6 @@ from .box import BoxLost, Limits, bubblewrap
 from .locked import locked_files, write_files
 from .student import Student
 
-RUNNER = Path(__file__).with_name("runner.py")
-
 
 def main() -> None:
     """Grade every job that comes, until there are no more."""
@@ -61,7 +59,7 @@ class _Libraries:
         key = f"{zlib.crc32(json.dumps(files, sort_keys=True).encode()):08x}"
         if key not in self._known:
             self._known[key] = self._folder / key
-            write_files({**files, "runner.py": RUNNER.read_text("utf-8")}, self._known[key])
+            write_files(files, self._known[key])
         return self._known[key]
 
 
@@ -129,11 +127,10 @@ def _hidden(exercise: Exercise, seed: int, unit: str) -> np.random.Generator:
 
 
 def library(course: Course, unit: str, seed: int) -> dict[str, str]:
-    """The locked library for a unit: its list, and what passing a robot or its fk as an argument needs."""
+    """The locked library for a unit: its list, and what passing the fk of a robot as an argument needs."""
     questions = [hidden_inputs(exercise, seed, unit) for exercise in course.exercises(unit)]
     passed = {k for calls in questions for call in calls for x in call if isinstance(x, dict) for k in x}
-    needed = (["robots"] if passed else []) + (["robot.Robot.fk"] if "fk" in passed else [])
-    return locked_files((*course.allowed(unit), *needed))
+    return locked_files((*course.allowed(unit), *(["robot.Robot.fk"] if "fk" in passed else [])))
 
 
 def _end_with_parent(folder: str) -> None:

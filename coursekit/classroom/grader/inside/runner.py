@@ -1,13 +1,15 @@
 """Runs inside the box, and nowhere else: a student's cells, and the questions to their functions.
 
-It is a script of its own that imports nothing of coursekit. Requests come as JSON lines on stdin, one reply
-goes back for each. Whatever happens in here, the grader believes none of it: replies are read field by field,
+It is a script of its own that imports nothing of coursekit: `runner.py [PACKAGES]`, beside the locked
+library, with the folder of numpy and its like. Requests come as JSON lines on stdin, one reply goes back
+for each. Whatever happens in here, the grader believes none of it: replies are read field by field,
 and an answer is right only if its numbers are. Students' code runs in names of its own, with small stand-ins
 for what only a notebook has; what it prints goes nowhere.
 """
 
 import builtins
 import copy
+import importlib.machinery
 import json
 import linecache
 import os
@@ -19,6 +21,7 @@ from collections.abc import Callable
 from typing import Any
 
 LARGEST = 2000  # numbers in one answer
+LIBRARY = os.path.dirname(os.path.abspath(__file__))
 
 
 class Nothing:
@@ -42,13 +45,32 @@ class Nothing:
         return ""
 
 
-def stand_in(name: str) -> None:
-    """A module of which every name is Nothing."""
-    module = types.ModuleType(name)
-    nothing = Nothing()
-    answer = lambda key: None if key == "get_ipython" else getattr(nothing, key)  # noqa: E731
-    module.__dict__.update(__path__=[], __getattr__=answer)
-    sys.modules[name] = module
+class StandIns:
+    """Finds modules, of which every name is Nothing, for what only a notebook has or a person looks at."""
+
+    names = ("coursekit.view", "coursekit.classroom", "IPython", "ipywidgets", "anywidget", "meshcat")
+    real = ("coursekit.view.text",)  # prints numbers: notebooks use it everywhere
+
+    def find_spec(
+        self, name: str, path: object = None, target: object = None
+    ) -> importlib.machinery.ModuleSpec | None:
+        """The import system asks every finder for every module."""
+        ours = name.startswith(tuple(f"{one}." for one in self.names)) or name in self.names
+        if not ours or name in self.real:
+            return None
+        return importlib.machinery.ModuleSpec(name, self, is_package=True)  # type: ignore[arg-type]
+
+    def create_module(self, spec: importlib.machinery.ModuleSpec) -> types.ModuleType:
+        """The module itself."""
+        module = types.ModuleType(spec.name)
+        nothing = Nothing()
+        answer = lambda key: None if key == "get_ipython" else getattr(nothing, key)  # noqa: E731
+        folder = os.path.join(LIBRARY, *spec.name.split("."))
+        module.__dict__.update(__path__=[folder], __getattr__=answer)
+        return module
+
+    def exec_module(self, module: types.ModuleType) -> None:
+        """There is nothing to run."""
 
 
 class Late(BaseException):
@@ -144,12 +166,11 @@ def main() -> None:
     nowhere = os.open(os.devnull, os.O_RDWR)
     for descriptor in (0, 1, 2):
         os.dup2(nowhere, descriptor)
-    sys.path.insert(0, sys.argv[1])
+    sys.path[:0] = [LIBRARY, *sys.argv[1:]]
     kernel = os.path.join(os.environ["HOME"], "kernel")
     os.makedirs(kernel, exist_ok=True)
     sys.argv = ["ipykernel_launcher.py", "-f", f"{kernel}/kernel.json"]  # as in a notebook
-    for name in ("IPython", "IPython.display", "ipywidgets"):
-        stand_in(name)
+    sys.meta_path.insert(0, StandIns())
     builtins.__dict__.update(get_ipython=Nothing(), display=Nothing())
     main_module = types.ModuleType("__main__")
     sys.modules["__main__"] = main_module
