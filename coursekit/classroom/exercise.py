@@ -93,6 +93,7 @@ class Exercise:
     residual  : residual(args, value, right) -> how far a wrong answer misses, in the course's own terms: "put
                 back into the arm, your angles miss the wrist centre by 83 mm"; "" if it cannot be said. value
                 and right are arrays, or tuples of them.
+    own       : its examples are drawn with `own_arm()`, and so differ from student to student.
     look      : look(args, value) -> what there is to see of an answer, for `picture`: a dict with any of
                 frames (k, 4, 4), chains (lists of points (m, 3)), lines and arrows (pairs of point and
                 direction), points (k, 3), ellipsoid (3, 3) with half axes as columns. Lengths in metres.
@@ -115,6 +116,7 @@ class Exercise:
     blocks: tuple[Block, ...] = ()
     residual: Callable[[list, Any, Any], str] | None = None
     look: Callable[[list, Any], dict] | None = None
+    own: bool = False
     name: str = field(init=False)
 
     def __post_init__(self):

@@ -75,9 +75,8 @@ class YourCourse(Course):
         """Do the solutions live in a folder of their own?"""
         return self.solved != self.notebooks
 
-    def is_shipped(self, unit: str) -> bool:
-        """Does the unit ask the exercises that ship with the package?"""
-        return unit not in self.stems
+    def is_at_home(self, unit: str) -> bool:
+        return unit in self.stems
 
     def unit_of(self, stem: str) -> str:
         """ "01_gripper" is its own unit; "04_singularities" is "nb04", unless its exercises stand here."""
@@ -94,26 +93,21 @@ class YourCourse(Course):
         mine = self.solved / name
         if not self.solved.is_dir():
             raise ValueError(f"{self.toml}, solutions: there is no folder {self.solved}")
-        if mine.exists() or not self.is_shipped(unit):
+        if mine.exists() or self.is_at_home(unit):
             return mine
         return _shipped().notebook(unit)
 
     def exercises_path(self, unit: str) -> Path:
-        if self.is_shipped(unit):
-            return _shipped().exercises_path(unit)
-        return self.notebooks / f"{unit}_exercises.py"
+        mine = self.notebooks / f"{unit}_exercises.py"
+        return mine if self.is_at_home(unit) else _shipped().exercises_path(unit)
 
     def mistakes_path(self, unit: str) -> Path:
-        return (
-            _shipped().mistakes_path(unit) if self.is_shipped(unit) else self.solved / f"{unit}_mistakes.py"
-        )
+        mine = self.solved / f"{unit}_mistakes.py"
+        return mine if self.is_at_home(unit) else _shipped().mistakes_path(unit)
 
     def samples_path(self, unit: str) -> Path:
-        return (
-            _shipped().samples_path(unit)
-            if self.is_shipped(unit)
-            else self.notebooks / f"{unit}_samples.json"
-        )
+        mine = self.notebooks / f"{unit}_samples.json"
+        return mine if self.is_at_home(unit) else _shipped().samples_path(unit)
 
     def exercises(self, unit: str) -> list[Exercise]:
         path = self.exercises_path(unit)
@@ -132,9 +126,9 @@ class YourCourse(Course):
         return [e for e in super().exercises(unit) if isinstance(e, str)] if path.exists() else []
 
     def sources(self, unit: str) -> list[Path]:
-        theirs = {_shipped().find(name)[0] for name in self.by_name(unit)}
-        if self.is_shipped(unit):
+        if not self.is_at_home(unit):
             return _shipped().sources(unit)
+        theirs = {_shipped().find(name)[0] for name in self.by_name(unit)}
         found = [self.exercises_path(unit), self.mistakes_path(unit)]
         found += [path for one in theirs for path in _shipped().sources(one)]
         return sorted({path for path in found if path.exists()})

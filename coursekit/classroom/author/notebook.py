@@ -15,6 +15,9 @@ import re
 from pathlib import Path
 from types import SimpleNamespace
 
+from ..document import is_check as is_check
+from ..document import is_solution, read, tags, write
+
 STUB = "# your code here\nraise NotImplementedError"
 
 KERNEL = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
@@ -26,44 +29,6 @@ _SOLUTION = re.compile(r"^([ \t]*)### BEGIN SOLUTION[ \t]*\n.*?^[ \t]*### END SO
 
 # the answer to a question: `ask("lever").answer(-0.4)`
 _ANSWER = re.compile(r"^(ask\(.*?\)\.answer)\(.*\)[ \t]*$", re.M)
-
-
-def read(path: Path) -> dict:
-    """A notebook as plain data, sources joined to strings."""
-    notebook = json.loads(Path(path).read_text(encoding="utf-8"))
-    for cell in notebook["cells"]:
-        if isinstance(cell["source"], list):
-            cell["source"] = "".join(cell["source"])
-    return notebook
-
-
-def write(path: Path, notebook: dict) -> None:
-    """As Jupyter writes it: sources as lists of lines, indented by one, keys sorted, a newline at the end."""
-    notebook = copy.deepcopy(notebook)
-    for cell in notebook["cells"]:
-        cell["source"] = cell["source"].splitlines(keepends=True)
-    text = json.dumps(notebook, ensure_ascii=False, indent=1, sort_keys=True) + "\n"
-    Path(path).write_text(text, encoding="utf-8", newline="\n")
-
-
-def is_solution(cell: dict) -> bool:
-    """Does the student write this cell?"""
-    return bool(_role(cell).get("solution"))
-
-
-def is_check(cell: dict) -> bool:
-    """Does this cell check one the student writes?"""
-    return bool(_role(cell).get("grade")) and not is_solution(cell)
-
-
-def _role(cell: dict) -> dict:
-    role = cell.get("metadata", {}).get("nbgrader", {})
-    return role if cell.get("cell_type") == "code" and isinstance(role, dict) else {}
-
-
-def tags(cell: dict) -> list:
-    """The cell's tags."""
-    return cell.get("metadata", {}).get("tags", [])
 
 
 def references(path: Path) -> SimpleNamespace:

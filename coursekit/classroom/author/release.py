@@ -2,24 +2,90 @@
 
 from __future__ import annotations
 
+import json
 import shutil
+import tempfile
 from pathlib import Path
 
-from ..course import CLASSROOM, PACKAGE, ROOT, Course, the_course
-from . import notebook
+from .. import own, roster, update
+from ..course import CLASSROOM, PACKAGE, ROOT, TOML, Course, the_course
+from ..document import stamp
+from ..your_course import YourCourse
+from . import notebook, tables
+from .verify import verify
 
 # Rooms of the classroom that hold or use solutions. Everything else in it goes to students.
 INSTRUCTORS = ("author", "grader", "mistakes")
 OF_THE_COURSE = ("exercises", "samples")
 SET_UP = ("environment.txt", "pyproject.toml", "LICENSE")
+HIDDEN = shutil.ignore_patterns("__pycache__", ".*")
 
 
-def release(out: Path, course: Course | None = None) -> None:
-    """Write the students' version of the course into a new folder; ValueError if it exists."""
+def release(out: Path, course: Course | None = None, students: Path | None = None) -> str:
+    """Write the students' version of the course; says what was done.
+
+    Parameters
+    ----------
+    out : a new folder, or one that holds a release: that one is brought up to date, and what somebody wrote
+        in it stays (`update`)
+    course : the one that ships, unless told otherwise
+    students : roster.csv; everybody in it gets a folder `out`/<id> with an arm of their own
+
+    ValueError, and nothing is written, if the course is not whole or `out` is something else.
+    """
     course, out = course or the_course(), Path(out)
+    verify(course)
+    people = roster.read(students) if students else []
+    _distinct(students, people)
+    out.absolute().parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=".release", dir=out.absolute().parent) as scratch:
+        master = Path(scratch) / "master"
+        _build(master, course)
+        if not people:
+            update.write_list(master, course.title, course.version)
+            return _put(master, out)
+        _refuse_other(out, {student.id for student in people})
+        told = []
+        for student in people:
+            mine = Path(scratch) / "theirs" / student.id
+            shutil.copytree(master, mine)
+            _personal(mine, course, student)
+            update.write_list(mine, course.title, course.version)
+            told.append(_put(mine, out / student.id))
+    return "\n".join([*told, f"{len(people)} students: hand each the folder of their id"])
+
+
+def _put(new: Path, out: Path) -> str:
+    if (out / update.RELEASE).is_file():
+        return update.update(new, out)
     if out.exists():
-        raise ValueError(f"{out} exists already: name a new folder")
-    hidden = shutil.ignore_patterns("__pycache__", ".*")
+        raise ValueError(f"{out} exists already and is no release: name a new folder")
+    out.parent.mkdir(parents=True, exist_ok=True)
+    shutil.move(new, out)
+    return f"wrote {out}: hand it out as it is"
+
+
+def _refuse_other(out: Path, ids: set[str]) -> None:
+    """Before the first student's folder is written, none of the others may stand in the way."""
+    if (out / update.RELEASE).exists():
+        raise ValueError(f"{out} is a release for everybody; name another folder for one folder a student")
+    for name in sorted(ids):
+        if (out / name).exists() and not (out / name / update.RELEASE).is_file():
+            raise ValueError(f"{out / name} exists already and is no release: name a new folder")
+
+
+def _distinct(path: Path | None, people: list[roster.Student]) -> None:
+    arms: dict[tuple, str] = {}
+    for student in people:
+        sheet = own.sheet_of(own.seed_of(student.id))
+        arm = (*sheet.lengths.values(), sheet.forward, sheet.upright, sheet.signs)
+        if arm in arms:
+            raise ValueError(f"{path}, id: {arms[arm]} and {student.id} would get the same arm")
+        arms[arm] = student.id
+
+
+def _build(out: Path, course: Course) -> None:
+    """Everything but what differs from one student to the next."""
     out.mkdir(parents=True)
     shutil.copy(Path(__file__).with_name("students.md"), out / "README.md")
     for name in SET_UP:
@@ -29,29 +95,93 @@ def release(out: Path, course: Course | None = None) -> None:
     for name in ("__init__.py", "__main__.py", "commands.py"):
         shutil.copy(PACKAGE / name, out / "coursekit" / name)
     for room in ("kinematics", "view"):
-        shutil.copytree(PACKAGE / room, out / "coursekit" / room, ignore=hidden)
+        shutil.copytree(PACKAGE / room, out / "coursekit" / room, ignore=HIDDEN)
     for source in CLASSROOM.iterdir():
         if source.suffix == ".py":
             shutil.copy(source, students / source.name)
         elif source.is_dir() and source.name not in (*INSTRUCTORS, *OF_THE_COURSE, "__pycache__"):
-            shutil.copytree(source, students / source.name, ignore=hidden)
+            shutil.copytree(source, students / source.name, ignore=HIDDEN)
+    rooms = CLASSROOM if isinstance(course, YourCourse) else course.classroom
     for name in OF_THE_COURSE:
-        shutil.copytree(course.classroom / name, students / name, ignore=hidden)
+        shutil.copytree(rooms / name, students / name, ignore=HIDDEN)
     write_notebooks(course, out / "notebooks")
 
 
-def write_notebooks(course: Course, out: Path) -> tuple[list[str], list[str]]:
-    """Write the students' version of every notebook that is not in `out` yet: (names written, names kept)."""
+def _personal(folder: Path, course: Course, student: roster.Student) -> None:
+    """Whose folder it is, and the public examples of exercises that ask for one's own arm."""
+    seed = own.seed_of(student.id)
+    about = json.dumps({"id": student.id, "name": student.name, "seed": seed}, ensure_ascii=False, indent=1)
+    (folder / own.FILE).write_text(about + "\n", encoding="utf-8", newline="\n")
+    for path in (folder / "notebooks").glob("*.ipynb"):
+        document = notebook.read(path)
+        stamp(document, course.version, student.id)
+        notebook.write(path, document)
+    rooms = CLASSROOM if isinstance(course, YourCourse) else course.classroom
+    for unit in course.units:
+        if any(exercise.own for exercise in course.exercises(unit)):
+            path = course.samples_path(unit)
+            inside = path.is_relative_to(rooms)
+            target = (
+                folder / "coursekit" / "classroom" / path.relative_to(rooms)
+                if inside
+                else folder / "notebooks" / path.name
+            )
+            with own.using(seed):
+                mine = tables.table(course, unit, only_own=True)
+            target.write_text(
+                tables.dump({**course.samples(unit), **mine}), encoding="utf-8", newline="\n"
+            )
+
+
+def write_notebooks(course: Course, out: Path, beside: bool = True) -> tuple[list[str], list[str]]:
+    """Write the students' version of every notebook that is not in `out` yet: (names written, names kept).
+
+    beside : in a course of one's own, the files that `check` reads, too
+    """
     out.mkdir(parents=True, exist_ok=True)
     written, kept = [], []
-    for source in sorted(p for p in course.notebooks.iterdir() if p.is_file() and not p.name.startswith(".")):
+    for source in _files(course, beside):
         target = out / source.name
         if target.exists():
             kept.append(source.name)
-        elif source.suffix == ".ipynb":
-            notebook.write(target, notebook.student_version(notebook.read(source)))
-            written.append(source.name)
+            continue
+        written.append(source.name)
+        if source.suffix == ".ipynb":
+            document = notebook.student_version(notebook.read(source))
+            stamp(document, course.version)
+            notebook.write(target, document)
+        elif source.is_dir():
+            shutil.copytree(source, target, ignore=HIDDEN)
         else:  # data a notebook reads
             shutil.copy(source, target)
-            written.append(source.name)
+    if isinstance(course, YourCourse) and beside:
+        (out / TOML).write_text(public_toml(course), encoding="utf-8", newline="\n")
     return written, kept
+
+
+def _files(course: Course, beside: bool) -> list[Path]:
+    """The notebooks, and what lies beside them for students."""
+    if not isinstance(course, YourCourse):
+        return sorted(p for p in course.notebooks.iterdir() if p.is_file() and not p.name.startswith("."))
+    found = [course.notebook(unit) for unit in course.units]
+    found += [course.notebooks / name for name in course.files]
+    if beside:
+        mine = [unit for unit in course.units if course.is_at_home(unit)]
+        paths = [path for unit in mine for path in (course.exercises_path(unit), course.samples_path(unit))]
+        found += [path for path in paths if path.exists()]
+    return found
+
+
+def public_toml(course: YourCourse) -> str:
+    """course.toml as students get it: it does not say where the solutions are."""
+    lines = [
+        f"title = {json.dumps(course.title, ensure_ascii=False)}",
+        f"version = {json.dumps(course.version)}",
+        f"notebooks = {json.dumps(list(course.stems))}",
+    ]
+    if course.weights:
+        lines += ["", "[weights]", *(f"{name} = {weight:g}" for name, weight in course.weights.items())]
+    if course.deadlines:
+        lines += ["", "[deadlines]"]
+        lines += [f"{json.dumps(stem)} = {when.isoformat()}" for stem, when in course.deadlines.items()]
+    return "\n".join(lines) + "\n"

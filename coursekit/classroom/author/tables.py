@@ -7,26 +7,49 @@ release, so that a check takes one path everywhere.
 from __future__ import annotations
 
 import json
+import os
 import re
 import zlib
 from collections.abc import Callable
 from functools import cache
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 
-from ..course import Course, the_course
+from ..course import TOML, Course, the_course
 from ..exercise import Exercise, Misfit, answer, misshapen, thaw
+from ..your_course import YourCourse
 from . import notebook
+from .verify import verify
 
 
 def write_samples(course: Course | None = None) -> list[str]:
-    """Write every unit's table; the list of units."""
+    """Write every table of the course's own, and where solutions live elsewhere the notebooks without them.
+
+    The list of units. ValueError, and nothing is written, if the course is not whole.
+    """
     course = course or the_course()
+    verify(course, tables=False)
+    units = [unit for unit in course.units if course.exercises(unit) and course.is_at_home(unit)]
+    made = {course.samples_path(unit): dump(table(course, unit)) for unit in units}
+    for path, text in made.items():
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(text, encoding="utf-8", newline="\n")
+    if isinstance(course, YourCourse) and course.is_split:
+        _write_public(course)
+    return units
+
+
+def _write_public(course: YourCourse) -> None:
     for unit in course.units:
-        course.samples_path(unit).parent.mkdir(exist_ok=True)
-        course.samples_path(unit).write_text(dump(table(course, unit)), encoding="utf-8", newline="\n")
-    return course.units
+        solved = course.notebook(unit)
+        if solved.parent == course.solved:
+            notebook.write(course.notebooks / solved.name, notebook.student_version(notebook.read(solved)))
+    pointer = course.solved / TOML
+    if not pointer.exists():
+        there = Path(os.path.relpath(course.notebooks, course.solved)).as_posix()
+        pointer.write_text(f"public = {json.dumps(there)}\n", encoding="utf-8", newline="\n")
 
 
 def dump(tables: dict) -> str:
@@ -39,14 +62,13 @@ def dump(tables: dict) -> str:
     return "{\n" + ",\n".join(exercises) + "\n}\n"
 
 
-def table(course: Course, unit: str) -> dict:
-    """{exercise: {place, examples}} of a unit."""
+def table(course: Course, unit: str, only_own: bool = False) -> dict:
+    """{exercise: {place, examples}} of a unit; of exercises that ask for one's own arm only, if that is said."""
     tables = {}
     places = sections(course, unit)
     for exercise in course.exercises(unit):
-        missing = {hint.key for hint in exercise.hints} ^ set(course.wrong(unit).get(exercise.name, ()))
-        if missing:
-            raise ValueError(f"{exercise.name}: hint or wrong function missing: {', '.join(sorted(missing))}")
+        if only_own and not exercise.own:
+            continue
         rng = np.random.default_rng(zlib.crc32(f"samples/{unit}/{exercise.name}".encode()))
         examples = rows(course, unit, exercise, exercise.least + exercise.samples, rng)
         tables[exercise.name] = {"place": places.get(exercise.name, ""), "examples": examples}
