@@ -49,6 +49,9 @@ def _parser() -> argparse.ArgumentParser:
     words = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, command in COMMANDS.items():
         one = words.add_parser(name, help=command.text, description=command.text)
+        one.add_argument(
+            "--course", metavar="DIR", help="a course of your own: the folder of its course.toml"
+        )
         for names, settings in command.arguments:
             one.add_argument(*names, **settings)
     return parser

@@ -1,7 +1,7 @@
 """The commands, one entry each: what it is called with, what its help says, and the function that runs it.
 
 A function takes the parsed options, imports what it needs only then, and prints what a person should know.
-`options.course` is the course that is meant, `options.rest` what the command does not know itself.
+`_course(options)` is the course that is meant, `options.rest` what the command does not know itself.
 """
 
 from __future__ import annotations
@@ -10,7 +10,10 @@ from argparse import Namespace
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .classroom.course import Course
 
 
 @dataclass(frozen=True)
@@ -31,23 +34,44 @@ def _argument(*names: str, **settings: Any) -> tuple[tuple[str, ...], dict[str, 
     return names, settings
 
 
+def _course(options: Namespace) -> Course:
+    """What --course names, or else the course of the folder one is in."""
+    from .classroom.course import course_at, course_here
+
+    return course_at([str(options.course)]) if options.course else course_here()
+
+
 def _lab(options: Namespace) -> None:
     from .classroom import lab
 
-    lab.start(options.rest)
+    course = _course(options)
+    lab.start(options.rest, notebooks=getattr(course, "solved", None))
 
 
 def _study(options: Namespace) -> None:
     from .classroom.author import study
 
-    study.start(options.rest)
+    study.start(options.rest, _course(options))
 
 
 def _release(options: Namespace) -> None:
     from .classroom.author import release
 
-    release.release(options.out)
-    print(f"wrote {options.out}: hand it out as it is")
+    print(release.release(options.out, _course(options), options.roster))
+
+
+def _update(options: Namespace) -> None:
+    from .classroom import update
+
+    if options.undo == (options.new is not None):
+        raise ValueError("name the corrected release (its folder or zip), or --undo")
+    print(update.undo(options.folder) if options.undo else update.update(options.new, options.folder))
+
+
+def _new(options: Namespace) -> None:
+    from .classroom.author import new
+
+    print(new.new(options.folder))
 
 
 def _grade(options: Namespace) -> None:
@@ -60,6 +84,7 @@ def _grade(options: Namespace) -> None:
         seed=options.seed,
         box=not options.no_box,
         regrade=options.regrade,
+        course=_course(options),
     )
     print(summary)
 
@@ -67,14 +92,14 @@ def _grade(options: Namespace) -> None:
 def _export(options: Namespace) -> None:
     from .classroom.author import nbgrader
 
-    nbgrader.export(options.out)
+    nbgrader.export(options.out, _course(options))
     print(f"wrote {options.out}\n{nbgrader.WARNING}")
 
 
 def _samples(options: Namespace) -> None:
     from .classroom.author import tables
 
-    print("wrote the tables of " + ", ".join(tables.write_samples()))
+    print("wrote the tables of " + ", ".join(tables.write_samples(_course(options))))
 
 
 def _execute(options: Namespace) -> None:
@@ -82,7 +107,7 @@ def _execute(options: Namespace) -> None:
 
     from .classroom.author import notebook
 
-    for path in options.notebooks:
+    for path in options.notebooks or _at_home(_course(options)):
         try:
             notebook.execute(path)
         except CellExecutionError as error:
@@ -90,13 +115,36 @@ def _execute(options: Namespace) -> None:
         print(f"executed {path}")
 
 
+def _at_home(course: Course) -> list[Path]:
+    """The solved notebooks that lie in the course's own folder."""
+    found = [course.notebook(unit) for unit in course.units]
+    return [path for path in found if path.parent in (course.notebooks, getattr(course, "solved", None))]
+
+
 COMMANDS = {
+    "new": Command(
+        _new,
+        "begin a course of your own: a notebook, an exercise, its mistakes",
+        (_argument("folder", type=Path, help="a folder that does not exist yet"),),
+    ),
     "lab": Command(_lab, "open the notebooks in JupyterLab", passes_on=True),
     "study": Command(_study, "learn alone: open the exercises, kept in work/, in JupyterLab", passes_on=True),
     "release": Command(
         _release,
         "write what students get: no solutions, no outputs",
-        (_argument("out", type=Path, help="a folder that does not exist yet"),),
+        (
+            _argument("out", type=Path, help="a new folder, or a release to bring up to date"),
+            _argument("--roster", type=Path, help="a CSV of id, name, email: OUT/<id> with an arm for each"),
+        ),
+    ),
+    "update": Command(
+        _update,
+        "students: take in a corrected release; what you wrote stays",
+        (
+            _argument("new", type=Path, nargs="?", help="the corrected release, a folder or a zip"),
+            _argument("--folder", type=Path, help="yours, if it is not the one coursekit lies in"),
+            _argument("--undo", action="store_true", help="bring back what the last update replaced"),
+        ),
     ),
     "grade": Command(
         _grade,
@@ -128,6 +176,10 @@ COMMANDS = {
     "execute": Command(
         _execute,
         "run notebooks from top to bottom and store their outputs",
-        (_argument("notebooks", type=Path, nargs="+", metavar="NOTEBOOK"),),
+        (
+            _argument(
+                "notebooks", type=Path, nargs="*", metavar="NOTEBOOK", help="all of the course unless named"
+            ),
+        ),
     ),
 }

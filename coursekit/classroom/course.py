@@ -152,9 +152,13 @@ def course_at(place: list[str]) -> Course:
     return read(Path(place[0]))
 
 
-@cache
 def _module(path: Path) -> ModuleType:
     """A module by its path: courses other than ours (in tests, say) need not be importable packages."""
+    return _loaded(path, path.stat().st_mtime_ns)
+
+
+@cache
+def _loaded(path: Path, changed: int) -> ModuleType:
     spec = importlib.util.spec_from_file_location(f"coursekit.classroom.{path.parent.name}.{path.stem}", path)
     if spec is None or spec.loader is None:
         raise ImportError(f"{path} is no Python module")

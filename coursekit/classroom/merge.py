@@ -57,7 +57,9 @@ def merge(mine: dict, new: dict) -> tuple[dict, Changes]:
     base = base if isinstance(base, dict) else {}
     changes, partners = Changes(), _partners(mine["cells"], new["cells"])
     pair_of = {id(old): number for number, old in partners.items()}
-    merged: list[list[dict]] = [_one(old, cell, base, changes) for old, cell in _pairs(partners, new["cells"])]
+    merged: list[list[dict]] = [
+        _one(old, cell, base, changes) for old, cell in _pairs(partners, new["cells"])
+    ]
     still = {key(cell) for cell in new["cells"]}
     front: list[dict] = []
     behind = front  # where a cell of one's own goes: behind the released cell that it stood behind
@@ -126,10 +128,9 @@ def _one(old: dict | None, cell: dict, base: dict, changes: Changes) -> list[dic
         now["source"] = old["source"]
     elif ours and old["source"].strip() != cell["source"].strip():
         changes.changed.append(_name(cell))
-    if old["cell_type"] == "code":
-        if digest(now["source"]) == digest(old["source"]):
-            now["outputs"] = copy.deepcopy(old.get("outputs", []))
-            now["execution_count"] = old.get("execution_count")
+    if old["cell_type"] == "code" and digest(now["source"]) == digest(old["source"]):
+        now["outputs"] = copy.deepcopy(old.get("outputs", []))
+        now["execution_count"] = old.get("execution_count")
     if theirs and ours and digest(now["source"]) != digest(old["source"]):
         changes.changed.remove(_name(cell))
         changes.both.append(_name(cell))
@@ -163,7 +164,9 @@ def _unique_ids(cells: list[dict]) -> None:
     seen: set[str] = set()
     for number, cell in enumerate(cells):
         if not cell.get("id") or cell["id"] in seen:
-            cell["id"] = next(name for n in range(len(cells) + 1) if (name := f"own-{number + n}") not in seen)
+            cell["id"] = next(
+                name for n in range(len(cells) + 1) if (name := f"own-{number + n}") not in seen
+            )
         seen.add(cell["id"])
 
 

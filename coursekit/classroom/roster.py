@@ -34,7 +34,9 @@ def read(path: Path) -> list[Student]:
     rows = csv.DictReader(text.splitlines(), delimiter=";" if first.count(";") > first.count(",") else ",")
     names = [name.strip().lower() for name in rows.fieldnames or ()]
     if "id" not in names:
-        raise ValueError(f"{path}, line 1: the columns {', '.join(COLUMNS)} are expected, not {first.strip()!r}")
+        raise ValueError(
+            f"{path}, line 1: the columns {', '.join(COLUMNS)} are expected, not {first.strip()!r}"
+        )
     rows.fieldnames = names
     found: dict[str, int] = {}
     students = []

@@ -38,6 +38,7 @@ def test_it_holds_what_is_needed_and_no_more(released):
         "environment.txt",
         "notebooks",
         "pyproject.toml",
+        "release.json",
     }
     modules = {p.name for p in (out / "coursekit" / "classroom").iterdir()}
     ours = {p.name for p in CLASSROOM.iterdir() if p.is_dir() or p.suffix == ".py"} - {"__pycache__"}
@@ -112,9 +113,12 @@ def test_instructors_commands_are_not_there(released, command):
     assert "not part of the students' version" in done.stderr
 
 
-def test_it_never_overwrites(tmp_path):
-    with pytest.raises(ValueError, match="exists already"):
+def test_it_never_overwrites_what_is_no_release(tmp_path):
+    (tmp_path / "diary.txt").write_text("mine")
+    with pytest.raises(ValueError, match="exists already and is no release"):
         release.release(tmp_path, COURSE)
+    assert [p.name for p in tmp_path.iterdir()] == ["diary.txt"]
+    assert not list(tmp_path.parent.glob(".release*"))
 
 
 def test_an_unbalanced_marker_is_an_error():

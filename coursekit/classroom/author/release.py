@@ -128,9 +128,7 @@ def _personal(folder: Path, course: Course, student: roster.Student) -> None:
             )
             with own.using(seed):
                 mine = tables.table(course, unit, only_own=True)
-            target.write_text(
-                tables.dump({**course.samples(unit), **mine}), encoding="utf-8", newline="\n"
-            )
+            target.write_text(tables.dump({**course.samples(unit), **mine}), encoding="utf-8", newline="\n")
 
 
 def write_notebooks(course: Course, out: Path, beside: bool = True) -> tuple[list[str], list[str]]:

@@ -13,9 +13,11 @@ def prepare(work: Path | None = None, course: Course | None = None) -> str:
 
     A notebook that is there already is yours: it is never overwritten.
     """
-    work = work or ROOT / "work"
-    written, kept = write_notebooks(course or the_course(), work)
-    lines = [f"{work}: your exercises, which git ignores; the solved notebooks are in notebooks/"]
+    course = course or the_course()
+    work = work or _work(course)
+    written, kept = write_notebooks(course, work, beside=False)
+    solved = course.notebook(course.units[0]).parent
+    lines = [f"{work}: your exercises, which git ignores; the solved notebooks are in {solved.name}/"]
     if written:
         lines.append(f"new: {', '.join(written)}")
     if kept:
@@ -23,11 +25,16 @@ def prepare(work: Path | None = None, course: Course | None = None) -> str:
     return "\n".join(lines)
 
 
-def start(arguments: list[str]) -> None:
+def start(arguments: list[str], course: Course | None = None) -> None:
     """Prepare work/ and open it in JupyterLab."""
     from .. import lab
 
-    work = ROOT / "work"
-    print(prepare(work))
+    course = course or the_course()
+    work = _work(course)
+    print(prepare(work, course))
     # a folder of its own: what was open among the solved notebooks is not what was open here
     lab.start(arguments, notebooks=work, folder=ROOT / ".venv" / "study")
+
+
+def _work(course: Course) -> Path:
+    return ROOT / "work" if course == the_course() else course.notebooks / "work"

@@ -63,7 +63,7 @@ def dump(tables: dict) -> str:
 
 
 def table(course: Course, unit: str, only_own: bool = False) -> dict:
-    """{exercise: {place, examples}} of a unit; of exercises that ask for one's own arm only, if that is said."""
+    """{exercise: {place, examples}} of a unit; only_own: of those that ask for one's own arm."""
     tables = {}
     places = sections(course, unit)
     for exercise in course.exercises(unit):

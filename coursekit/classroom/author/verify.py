@@ -19,9 +19,7 @@ def verify(course: Course, tables: bool = True) -> None:
         for exercise in exercises:
             if exercise.name in known:
                 where = f"{course.exercises_path(known[exercise.name])} and {course.exercises_path(unit)}"
-                raise ValueError(
-                    f"{where}, EXERCISES: two exercises are named {exercise.name!r}; `check` finds one by its name"
-                )
+                raise ValueError(f"{where}, EXERCISES: two exercises are named {exercise.name!r}")
             known[exercise.name] = unit
             _mistakes(course, unit, exercise)
         _cells(course, unit, exercises)
@@ -68,7 +66,9 @@ def _cells(course: Course, unit: str, exercises: list[Exercise]) -> None:
             if not notebook.is_solution(cell):
                 notebook.without_solution(cell["source"])
             elif notebook.without_solution(cell["source"]) == cell["source"].rstrip("\n"):
-                raise ValueError("no ### BEGIN SOLUTION and ### END SOLUTION, so all of it would be handed out")
+                raise ValueError(
+                    "no ### BEGIN SOLUTION and ### END SOLUTION, so all of it would be handed out"
+                )
         except ValueError as error:
             raise ValueError(f"{path}, cell {cell.get('id', '')}: {error}") from None
 
