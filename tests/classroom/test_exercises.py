@@ -135,9 +135,16 @@ def course_with(tmp_path, exercise, wrong="lambda x: x + 1", solution="def doubl
     start = "from coursekit.classroom.exercise import Exercise, Hint\n"
     (tmp_path / "exercises" / "nb01.py").write_text(f"{start}EXERCISES = [Exercise({exercise})]")
     (tmp_path / "mistakes" / "nb01.py").write_text(f"WRONG = {{'double': {{'plus_one': {wrong}}}}}")
-    cell = {"cell_type": "code", "id": "a", "source": solution, "outputs": [], "execution_count": None}
-    cell["metadata"] = {"nbgrader": {"solution": True}}
-    notebook.write(tmp_path / "01_a.ipynb", {"cells": [cell], "metadata": {}})
+    head, body = solution.split("\n")
+    marked = f"{head}\n    ### BEGIN SOLUTION\n{body}\n    ### END SOLUTION"
+    cells = [
+        {"cell_type": "code", "id": name, "source": source, "metadata": {"nbgrader": role}}
+        for name, source, role in (
+            ("a", marked, {"grade_id": "double", "solution": True}),
+            ("b", 'check("double", double)', {"grade_id": "check-double", "grade": True}),
+        )
+    ]
+    notebook.write(tmp_path / "01_a.ipynb", {"cells": cells, "metadata": {}})
     return Course(tmp_path, tmp_path)
 
 
