@@ -3,8 +3,8 @@
     python tests/benchmark/browser.py [--executions 200] [--moves 60]
 
 Starts a private JupyterLab and a headless Chromium (see tests/requirements-ci.txt) and prints one table. The
-times are those of this machine: beside them stand an empty round trip of the same kind of widget, and the same
-robot in meshcat's own server and page, measured in the same run. The test command does not read this file.
+times are those of this machine: beside them stand an empty round trip of the same kind of widget, and the
+same robot in meshcat's own server and page, measured in the same run. The test command does not read this.
 """
 
 import argparse
