@@ -232,7 +232,7 @@ bytes_kind("not_utf8", json.dumps({"cells": []}).encode("utf-16"))
 bytes_kind("a_list", b"[1, 2]")
 bytes_kind("cells_of_nonsense", b'{"cells": [1, null, {"cell_type": "code"}]}')
 bytes_kind("nested_too_deep", b"[" * 200_000)
-bytes_kind("of_version_3", b'{"worksheets": [{"cells": []}], "nbformat": 3}')
+bytes_kind("of_version_3", b'{"worksheets": [{"cells": []}], "nbformat": 3}', "save it")
 bytes_kind("too_large", b" " * 21_000_000 + b"{}", "larger than 20 MB")
 
 # ---- wrong answers
@@ -488,7 +488,7 @@ for _ in range(6):
         time.sleep(60)
 time.sleep(60)
 """,
-    "memory",
+    "no answer",  # its memory or, on a slow machine, its time is over
 )
 fk_kind(
     "floods_the_memory_by_files_without_names",

@@ -10,8 +10,10 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 import tracemalloc
+from pathlib import Path
 
 import psutil
 import pytest
@@ -42,7 +44,7 @@ def wrong_fk(solved):
 
 
 def rows(out):
-    with open(out / "grades.csv", newline="", encoding="utf-8") as file:
+    with open(out / "grades.csv", newline="", encoding="utf-8-sig") as file:
         return {row["student"]: row for row in csv.DictReader(file)}
 
 
@@ -66,6 +68,80 @@ def test_links_folders_and_pipes_are_not_followed_and_nobody_is_forgotten(tmp_pa
     assert "link" in table["link"]["notes"] and "link" in table["alias"]["notes"]
     assert "nothing handed in" in table["missing"]["notes"]
     assert "under the name 01_arm.ipynb (found: arm (1).ipynb)" in table["otherwise named"]["notes"]
+
+
+@needs_box
+def test_odd_folders_and_files_neither_end_the_run_nor_count_as_students(tmp_path, solved):
+    """What JupyterLab and macOS leave, grades among the submissions, zips, the longest of names."""
+    long = "n" * 255
+    for student in (
+        long,
+        "class",
+        "zipped",
+        "old/.ipynb_checkpoints",
+        "__MACOSX",
+        ".ipynb_checkpoints",
+        "out",
+    ):
+        hand_in(tmp_path / "in", student, solved)
+    (tmp_path / "in" / "zipped" / NAME).rename(tmp_path / "in" / "zipped" / "work.ZIP")
+    (tmp_path / "in" / "ann_late_123_456_01_arm.ipynb").write_text("{}")
+    summary = grade_small(tmp_path / "in", tmp_path / "in" / "out")
+    table = rows(tmp_path / "in" / "out")
+    assert {name: row["points"] for name, row in table.items()} == {
+        long: "12",
+        "class": "12",
+        "zipped": "0",
+        "old": "0",
+    }
+    assert "found: work.ZIP" in table["zipped"]["notes"]
+    assert "1 files beside the students' folders" in summary and "coursekit collect" in summary
+    names = {path.name for path in (tmp_path / "in" / "out").glob("*.html")}
+    assert len(names) == 4 and "class.html" not in names
+    assert (tmp_path / "in" / "out" / "grades.csv").read_bytes().startswith(b"\xef\xbb\xbf")
+
+
+def test_files_without_folders_are_refused_with_what_to_do(tmp_path):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "ann_123_456_01_arm.ipynb").write_text("{}")
+    with pytest.raises(ValueError, match="coursekit collect"):
+        grade_small(tmp_path / "in", tmp_path / "out", box=False)
+    with pytest.raises(ValueError, match="where the submissions are"):
+        grade_small(tmp_path / "in", tmp_path / "in", box=False)
+
+
+@needs_box
+def test_a_hard_link_to_a_classmates_file_earns_nothing(tmp_path, solved):
+    for student in ("ann", "bob", "cem"):
+        hand_in(tmp_path / "in", student, solved)
+    os.link(tmp_path / "in" / "ann" / NAME, tmp_path / "kept elsewhere by a backup")
+    (tmp_path / "in" / "bob" / NAME).unlink()
+    os.link(tmp_path / "in" / "cem" / NAME, tmp_path / "in" / "bob" / NAME)
+    if os.geteuid() == 0:  # then we can tell whose it is
+        os.chown(tmp_path / "in" / "cem", 65534, 65534)
+        os.chown(tmp_path / "in" / "cem" / NAME, 65534, 65534)
+    grade_small(tmp_path / "in", tmp_path / "out")
+    table = rows(tmp_path / "out")
+    assert table["ann"]["points"] == "12"
+    assert table["bob"]["points"] == "0" and "a hard link (cem)" in table["bob"]["notes"]
+    assert table["cem"]["points"] == ("12" if os.geteuid() == 0 else "0")
+
+
+@needs_box
+@pytest.mark.skipif(not box.nobody(), reason="only for root, with a Python that others may read")
+def test_an_ordinary_user_grades_from_any_folder(solved):
+    folder = Path(tempfile.mkdtemp(prefix="anywhere"))  # pytest's own folders are closed to others
+    try:
+        hand_in(folder / "in", "ann", solved)
+        os.chown(folder, 65534, 65534)
+        environment = {**os.environ, "HOME": str(folder), "PYTHONPATH": str(ROOT), "TMPDIR": "/tmp"}
+        command = [sys.executable, "-c", SCRIPT, str(folder / "in"), str(folder / "out")]
+        user = {"user": 65534, "group": 65534, "extra_groups": []}
+        done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, **user)
+        assert done.returncode == 0, done.stderr
+        assert rows(folder / "out")["ann"]["points"] == "12"
+    finally:
+        shutil.rmtree(folder)
 
 
 def test_a_notebook_that_is_missing_or_doubled_is_refused(tmp_path):
@@ -179,7 +255,7 @@ def test_nothing_is_lost_after_a_kill_in_the_middle(tmp_path, solved):
     journal = tmp_path / "out" / "journal.jsonl"
     command = [sys.executable, "-c", SCRIPT, str(tmp_path / "in"), str(tmp_path / "out")]
     grader = subprocess.Popen(command, cwd=ROOT)
-    while not journal.exists() or len(journal.read_bytes().splitlines()) < 2:
+    while not journal.exists() or len(journal.read_bytes().splitlines()) < 3:
         assert grader.poll() is None
         time.sleep(0.05)
     children = psutil.Process(grader.pid).children(recursive=True)
@@ -201,16 +277,17 @@ def test_nothing_is_lost_after_a_kill_in_the_middle(tmp_path, solved):
 
 
 def records_that_are_whole(journal):
-    return [json.loads(line) for line in journal.read_bytes().split(b"\n")[1:-1]]
+    return [json.loads(line) for line in journal.read_bytes().split(b"\n")[2:-1]]
 
 
 @needs_box
-def test_a_resubmission_is_graded_again_and_nothing_else(tmp_path, solved):
+def test_a_resubmission_is_graded_again_and_nothing_else(tmp_path, solved, monkeypatch):
     hand_in(tmp_path / "in", "ann", solved)
     hand_in(tmp_path / "in", "bob", wrong_fk(solved))
     grade_small(tmp_path / "in", tmp_path / "out")
     assert rows(tmp_path / "out")["bob"]["points"] == "10"
     hand_in(tmp_path / "in", "bob", solved)
+    monkeypatch.setattr(grade, "_canaries", None)  # the first run proved the set-up
     grade_small(tmp_path / "in", tmp_path / "out")
     assert rows(tmp_path / "out")["bob"]["points"] == "12"
     assert sorted(r["student"] for r in records(tmp_path / "out")) == ["ann", "bob", "bob"]
@@ -280,7 +357,7 @@ def test_a_dask_cluster_takes_the_jobs_unchanged(tmp_path, solved):
     distributed = needed("distributed")
     hand_in(tmp_path / "in", "ann", solved)
     hand_in(tmp_path / "in", "bob", wrong_fk(solved))
-    options = {"n_workers": 2, "threads_per_worker": 1, "processes": True, "dashboard_address": None}
+    options = {"n_workers": 2, "threads_per_worker": 1, "processes": True, "dashboard_address": ":0"}
     with (
         distributed.LocalCluster(**options, local_directory=str(tmp_path / "dask")) as cluster,
         distributed.Client(cluster) as client,

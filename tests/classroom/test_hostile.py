@@ -98,7 +98,7 @@ def test_no_process_and_no_file_is_left(graded):
 
 def test_every_student_has_a_row_and_a_page(graded):
     out = graded["folder"] / "out"
-    with open(out / "grades.csv", newline="", encoding="utf-8") as file:
+    with open(out / "grades.csv", newline="", encoding="utf-8-sig") as file:
         rows = {row["student"]: row for row in csv.DictReader(file)}
     assert set(rows) == set(KINDS)
     for name, kind in KINDS.items():
@@ -109,7 +109,7 @@ def test_every_student_has_a_row_and_a_page(graded):
 
 
 def test_no_cell_of_the_table_is_a_formula(graded):
-    with open(graded["folder"] / "out" / "grades.csv", newline="", encoding="utf-8") as file:
+    with open(graded["folder"] / "out" / "grades.csv", newline="", encoding="utf-8-sig") as file:
         cells = [cell for row in csv.reader(file) for cell in row]
     assert not [cell for cell in cells if cell.startswith(("=", "+", "-", "@"))]
 

@@ -22,6 +22,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 GRACE = 2.0  # seconds for the box to say itself that its time is over
 LOOK = 0.2  # seconds between two looks at what the box uses
@@ -54,6 +55,29 @@ def bubblewrap() -> str | None:
     return program if subprocess.run(attempt, capture_output=True).returncode == 0 else None
 
 
+@cache
+def nobody() -> dict:
+    """What makes a root's box nobody's (process limits do nothing for root), {} where that cannot be."""
+    if not hasattr(os, "geteuid") or os.geteuid() != 0 or (program := bubblewrap()) is None:
+        return {}
+    user: dict[str, Any] = {"user": 65534, "group": 65534, "extra_groups": []}
+    command = [program, "--unshare-all", "--ro-bind", "/", "/", os.path.realpath(sys.executable), "-I", "-S"]
+    try:  # a Python in root's own folder is closed to others
+        worked = subprocess.run([*command, "-c", ""], capture_output=True, cwd="/", **user).returncode == 0
+    except OSError:
+        worked = False
+    return user if worked else {}
+
+
+def _open_to_all(folder: Path) -> bool:
+    return all(path.stat().st_mode & 0o001 for path in [folder, *folder.resolve().parents])
+
+
+def as_root() -> bool:
+    """Would a box run as root?"""
+    return hasattr(os, "geteuid") and os.geteuid() == 0 and not nobody()
+
+
 class Box:
     """One Python in its box: `ask(request, seconds)` as often as you like, then `close()`."""
 
@@ -68,6 +92,7 @@ class Box:
             env={"PATH": os.environ.get("PATH", os.defpath)},
             cwd=self._home or "/",
             start_new_session=True,
+            **(nobody() if program and _open_to_all(library) else {}),
         )
         self._read = b""
         self.cpu = 0.0  # seconds it used, known when it is closed
@@ -222,6 +247,8 @@ def _command(library: Path, limits: Limits, program: str | None, home: str) -> l
     for name, value in environment.items():
         box += ["--setenv", name, value]
     for fonts in _font_lists():  # finding all fonts anew would cost every box seconds
+        if nobody() and not _open_to_all(fonts.parent):
+            break
         box += ["--ro-bind", str(fonts), f"{home}/.matplotlib/{fonts.name}"]
     box += ["--ro-bind", str(library), str(library), "--dir", home, "--chdir", home]
     return [*box, "--remount-ro", "/", "--remount-ro", "/dev", *python]

@@ -11,14 +11,22 @@ LONGEST = 200_000  # characters of a cell: more takes Python's own reader minute
 _RUNS_ITS_BODY = ("time", "timeit", "capture", "prun")  # of the magics that stand above a whole cell
 
 
+class Unreadable(ValueError):
+    """No notebook of the kind that JupyterLab writes; the text says what it is."""
+
+
 def sources(data: bytes) -> list[str]:
     """The code cells' texts; ValueError if this is no notebook. Metadata are not even looked at."""
     if len(data) > LARGEST:
         raise ValueError("the notebook is larger than 20 MB")
     try:
         notebook = json.loads(data.decode("utf-8-sig"))
+        if isinstance(notebook, dict) and "worksheets" in notebook and "cells" not in notebook:
+            raise Unreadable("a notebook of an old format (nbformat 3): open it in JupyterLab and save it")
         cells = notebook["cells"]
         code = [_text(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
+    except Unreadable:
+        raise
     except (ValueError, KeyError, TypeError, RecursionError, AttributeError) as error:
         raise ValueError(f"not a readable notebook ({type(error).__name__})") from None
     return [plain_python(text) for text in code if text.strip()]

@@ -14,15 +14,18 @@ import hashlib
 import json
 import secrets
 import shutil
+import sys
 import time
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
 
+import numpy as np
+
 from ..author import notebook
 from ..course import Course, the_course
 from . import pool, report, worker
-from .box import Limits, bubblewrap
+from .box import Limits, as_root, bubblewrap
 from .journal import Journal, seed_of, set_aside
 from .submissions import Submissions, digest
 
@@ -61,6 +64,8 @@ def grade_class(
     course, submissions, out = course or the_course(), Path(submissions), Path(out)
     if not submissions.is_dir():
         raise ValueError(f"{submissions} is no folder of submissions")
+    if out.resolve() == submissions.resolve():
+        raise ValueError(f"grades cannot go into {out}, where the submissions are: name another folder")
     if box and bubblewrap() is None:
         raise ValueError(
             "students' code runs in bubblewrap, which does not work here (Debian: apt install bubblewrap). "
@@ -87,9 +92,15 @@ def grade_class(
         shutil.rmtree(copies, ignore_errors=True)
         copies.mkdir()
         stack.callback(shutil.rmtree, copies, ignore_errors=True)
-        handed_in = Submissions(submissions, copies, {unit: course.notebook(unit).name for unit in units})
+        handed_in = Submissions(
+            submissions, copies, {unit: course.notebook(unit).name for unit in units}, out
+        )
         ahead = 2 * jobs + 2
-        _canaries(run_all(executor, make.canaries(), ahead))
+        if (
+            set_up := f"{sys.executable}, Python {sys.version}, numpy {np.__version__}"
+        ) not in journal.proved:
+            _canaries(run_all(executor, make.canaries(), ahead))
+            journal.prove(set_up)
         everything = [(student, unit) for student in handed_in.students for unit in units]
         waiting = [x for x in everything if not journal.holds(*x, digest(handed_in.data(*x)))]
         bar = _progress(len(everything), len(everything) - len(waiting), progress)
@@ -97,7 +108,7 @@ def grade_class(
             for record in run_all(executor, (make.job(handed_in, *x) for x in waiting), ahead):
                 journal.add(record)
                 bar.update()
-        return _write(out, handed_in.students, units, journal, box)
+        return _write(out, handed_in, units, journal, box)
 
 
 def course_digests(course: Course, units: list[str]) -> dict[str, str]:
@@ -216,16 +227,28 @@ def _canaries(records: Iterator[dict]) -> None:
             )
 
 
-def _write(out: Path, students: list[str], units: list[str], journal: Journal, box: bool) -> str:
-    failed = 0
+def _write(out: Path, handed_in: Submissions, units: list[str], journal: Journal, box: bool) -> str:
+    failed, students = 0, handed_in.students
     with contextlib.closing(report.Gradebook(out / "grades.csv", units, box)) as book:
         for student in students:
             results = {unit: journal.record(student, unit) for unit in units}
             failed += sum(bool(record.get("failed")) for record in results.values())
             book.row(student, results)
-            report.write_page(out / f"{student}.html", student, results)
+            report.write_page(out / report.page_name(student), student, results)
     text = f"{len(students)} students, {len(units)} notebooks: {out / 'grades.csv'}"
-    return text + (f"; {failed} COULD NOT BE GRADED, run it again" if failed else "")
+    text += f"; {failed} COULD NOT BE GRADED, run it again" if failed else ""
+    if handed_in.strays:
+        names = ", ".join(handed_in.strays[:3])
+        text += (
+            f"\n{len(handed_in.strays)} files beside the students' folders were not graded ({names}): "
+            "`coursekit collect` sorts them into folders"
+        )
+    if as_root():
+        text += (
+            "\nYou are root, for whom limits on processes do nothing, and whose Python nobody else may read: "
+            "grade as an ordinary user if you can"
+        )
+    return text
 
 
 def _progress(total: int, done: int, show: bool):

@@ -17,6 +17,7 @@ class Journal:
     def __init__(self, path: Path, run: dict) -> None:
         self._path = path
         self._file = open(path, "a+b")  # noqa: SIM115 - close() closes it
+        self.proved: set[str] = set()  # set-ups that passed their canaries in this run
         self._where: dict[tuple[str, str], tuple[int, str | None]] = {}
         try:
             self._lock()
@@ -72,6 +73,11 @@ class Journal:
     def add(self, record: dict) -> None:
         self._note(record, self._append(record))
 
+    def prove(self, set_up: str) -> None:
+        """Note that right was right and nothing was nothing with this set-up."""
+        self._append({"proved": set_up})
+        self.proved.add(set_up)
+
     def record(self, student: str, unit: str) -> dict:
         """The last record of a student's unit."""
         position, _ = self._where[student, unit]
@@ -93,9 +99,12 @@ class Journal:
                 self._file.truncate(position)
                 break
             record = self._parsed(line, number)
-            if not {"student", "unit"} <= record.keys():
+            if isinstance(record.get("proved"), str):
+                self.proved.add(record["proved"])
+            elif {"student", "unit"} <= record.keys():
+                self._note(record, position)
+            else:
                 self._parsed(b"", number)
-            self._note(record, position)
             position = self._file.tell()
 
     def _note(self, record: dict, position: int) -> None:

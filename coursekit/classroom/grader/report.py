@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import html
+import os
+import zlib
 from pathlib import Path
 
 STYLE = """
@@ -17,6 +19,8 @@ td.points { white-space: nowrap; } code { font-size: .95em; }
 """
 
 
+OURS = ("class",)  # pages that are no student's
+
 HEAD = "".join(f"<th scope='col'>{word}</th>" for word in ("exercise", "points", "feedback"))
 
 
@@ -24,7 +28,9 @@ class Gradebook:
     """grades.csv, row by row: student, total, points of each unit, notes, and how the code was boxed."""
 
     def __init__(self, path: Path, units: list[str], boxed: bool) -> None:
-        self._file = path.open("w", newline="", encoding="utf-8", errors="replace")
+        self._path, self._part = path, path.with_name(f".{path.name}.part")
+        # with a mark at its beginning: Excel takes letters for others without it
+        self._file = self._part.open("w", newline="", encoding="utf-8-sig", errors="replace")
         self._writer = csv.writer(self._file, quoting=csv.QUOTE_ALL)  # where `;` separates, too
         self._units = units
         self._box = "bubblewrap" if boxed else "NO BOX"
@@ -45,10 +51,11 @@ class Gradebook:
         ]
         cells = [student, whole, of, *(points[u] for u in self._units), "; ".join(notes), self._box]
         self._writer.writerow([_harmless(cell) for cell in cells])
-        self._file.flush()
 
     def close(self) -> None:
+        """Only a whole table takes the place of the one before."""
         self._file.close()
+        os.replace(self._part, self._path)
 
 
 def total(record: dict, key: str) -> int | None:
@@ -68,6 +75,14 @@ def _harmless(cell):
             else cell
         )
     return cell
+
+
+def page_name(student: str) -> str:
+    """The file name of a student's page: theirs, unless it is too long, or the name of another file here."""
+    if len(os.fsencode(student)) <= 200 and student.lower() not in OURS:
+        return f"{student}.html"
+    short = student.encode("utf-8", "replace")[:150].decode("utf-8", "ignore")
+    return f"{short}-{zlib.crc32(os.fsencode(student)):08x}.html"
 
 
 def write_page(path: Path, student: str, results: dict[str, dict]) -> None:

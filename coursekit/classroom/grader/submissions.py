@@ -5,25 +5,41 @@ from __future__ import annotations
 import hashlib
 import os
 import stat
+from collections import defaultdict
+from collections.abc import Iterable
 from pathlib import Path
 
 from .cells import LARGEST
+
+ARCHIVES = (".zip", ".tar", ".gz", ".7z", ".rar")
 
 
 class Submissions:
     """Copies of all notebooks in a private folder.
 
     names : {unit: name of its notebook}
+    out : where grades go; if that is in `folder`, it is nobody's
+
+    ValueError if there is no student's folder, but something else that was handed in.
     """
 
-    def __init__(self, folder: Path, copies: Path, names: dict[str, str]) -> None:
+    def __init__(self, folder: Path, copies: Path, names: dict[str, str], out: Path) -> None:
         self._copies = copies
         self._numbers: dict[str, int] = {}  # a student's name need not be fit for a path
         self._notes: dict[tuple[str, str], str] = {}
-        for number, student in enumerate(sorted(p for p in folder.iterdir() if p.is_dir() or p.is_symlink())):
+        students, self.strays = _students(folder, out)
+        if self.strays and not students:
+            raise ValueError(
+                f"{folder} holds files ({self.strays[0]}, ...) and no folder for each student. "
+                f"`coursekit collect {folder} NEW` makes one of what a learning platform hands out"
+            )
+        links = _linked(students, names.values())
+        for number, student in enumerate(students):
             self._numbers[student.name] = number
             for unit, name in names.items():
-                note = _copy(student, name, self._path(student.name, unit), set(names.values()))
+                note = links.get(student / name) or _copy(
+                    student, name, self._path(student.name, unit), set(names.values())
+                )
                 self._notes[student.name, unit] = note
 
     @property
@@ -48,6 +64,38 @@ def digest(data: bytes | None) -> str:
     return "" if data is None else hashlib.sha256(data).hexdigest()
 
 
+def _students(folder: Path, out: Path) -> tuple[list[Path], list[str]]:
+    """Folders of students, in alphabetical order, and names of notebooks and archives beside them."""
+    students, strays = [], []
+    for path in sorted(folder.iterdir()):
+        if path.name.startswith(".") or path.name == "__MACOSX" or path.resolve() == out.resolve():
+            continue  # what JupyterLab, macOS and we leave
+        if path.is_dir() or path.is_symlink():
+            students.append(path)
+        elif path.suffix.lower() in (".ipynb", *ARCHIVES):
+            strays.append(path.name)
+    return students, strays
+
+
+def _linked(students: list[Path], names: Iterable[str]) -> dict[Path, str]:
+    """{path: why not} of files that are somebody else's under a second name: hard links."""
+    notes, owners = {}, defaultdict(list)
+    for path in (student / name for student in students for name in names):
+        try:
+            file, folder = os.lstat(path), os.lstat(path.parent)
+        except OSError:
+            continue
+        if file.st_nlink > 1 and stat.S_ISREG(file.st_mode):
+            owners[file.st_dev, file.st_ino].append((path, file.st_uid == folder.st_uid))
+    for found in owners.values():
+        whose = [path for path, own in found if own]
+        for path, own in found:
+            if not own or len(whose) > 1:
+                others = ", ".join(other.parent.name for other, _ in found if other != path)
+                notes[path] = f"a hard link ({others or 'to a file elsewhere'}): not followed, hand in a copy"
+    return notes
+
+
 def _copy(student: Path, name: str, target: Path, expected: set[str]) -> str:
     """'' or why there is no copy. A link is never followed: it may point to somebody else's work."""
     if student.is_symlink():
@@ -58,7 +106,11 @@ def _copy(student: Path, name: str, target: Path, expected: set[str]) -> str:
                 return "not a regular file"
             data = file.read(LARGEST + 1)
     except FileNotFoundError:
-        others = sorted(path.name for path in student.glob("*.ipynb") if path.name not in expected)
+        others = sorted(
+            path.name
+            for path in student.iterdir()
+            if path.suffix.lower() in (".ipynb", *ARCHIVES) and path.name not in expected
+        )
         found = f" under the name {name} (found: {', '.join(others[:5])})" if others else ""
         return "nothing handed in" + found
     except OSError:

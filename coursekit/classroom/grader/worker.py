@@ -41,6 +41,7 @@ def main() -> None:
 
         resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
     with tempfile.TemporaryDirectory(prefix="library") as folder:
+        os.chmod(folder, 0o755)  # the box may be somebody else's
         threading.Thread(target=_end_with_parent, args=[folder], daemon=True).start()
         libraries = _Libraries(Path(folder))
         for line in jobs:
