@@ -123,7 +123,12 @@ def _short(part: np.ndarray) -> list | float:
     return (digits(part) if part.size else part).tolist()
 
 
-@cache
 def solutions(course: Course, unit: str) -> SimpleNamespace:
     """The functions of the unit's solved notebook."""
-    return notebook.references(course.notebook(unit))
+    path = course.notebook(unit)
+    return _solutions(path, path.stat().st_mtime_ns)
+
+
+@cache
+def _solutions(path: Path, changed: int) -> SimpleNamespace:
+    return notebook.references(path)

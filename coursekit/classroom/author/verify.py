@@ -15,17 +15,19 @@ def verify(course: Course, tables: bool = True) -> None:
     """
     known: dict[str, str] = {}  # exercise -> unit
     for unit in course.units:
+        for name in (exercise.name for exercise in course.exercises(unit)):
+            if name in known:
+                where = f"{course.exercises_path(known[name])} and {course.exercises_path(unit)}"
+                raise ValueError(f"{where}, EXERCISES: two exercises are named {name!r}")
+            known[name] = unit
+    _weights(course, known)
+    for unit in course.units:
         exercises = course.exercises(unit)
-        for exercise in exercises:
-            if exercise.name in known:
-                where = f"{course.exercises_path(known[exercise.name])} and {course.exercises_path(unit)}"
-                raise ValueError(f"{where}, EXERCISES: two exercises are named {exercise.name!r}")
-            known[exercise.name] = unit
-            _mistakes(course, unit, exercise)
         _cells(course, unit, exercises)
+        for exercise in exercises:
+            _mistakes(course, unit, exercise)
         if tables:
             _tables(course, unit, exercises)
-    _weights(course, known)
 
 
 def _mistakes(course: Course, unit: str, exercise: Exercise) -> None:

@@ -21,6 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .. import own
 from ..author import tables
 from ..check import examples_of
 from ..course import Course, course_at, the_course
@@ -28,6 +29,7 @@ from ..exercise import Exercise
 from ..verdict import Example, Verdict, verdict
 from . import cells
 from .box import BoxLost, Limits, bubblewrap
+from .handed_out import handed_out
 from .locked import locked_files, write_files
 from .student import Student
 
@@ -70,17 +72,20 @@ def grade(job: dict, libraries: _Libraries) -> dict:
     limits = Limits(**job["limits"])
     exercises = course.exercises(job["unit"])
     result = {e.name: {"points": 0, "of": e.points, "text": ""} for e in exercises}
+    data = base64.b64decode(job["notebook"])
     try:
-        sources = cells.sources(base64.b64decode(job["notebook"]))
+        sources = cells.sources(data)
     except ValueError as error:
         unreadable = {name: {**row, "text": str(error)} for name, row in result.items()}
         return {"exercises": unreadable, "notes": [str(error)]}
+    arm, notes = handed_out(data, job["student"], course)
     before = time.process_time()
     library = libraries.of(job["library"])
     student = Student(sources, library, limits, bubblewrap() if job["box"] else None, len(exercises))
     try:
         for exercise in exercises:
-            row, examples = result[exercise.name], _examples(course, exercise, job["seed"], job["unit"])
+            row = result[exercise.name]
+            examples = _examples(course, exercise, job["seed"], job["unit"], arm)
             try:
                 attempts = student.ask(exercise, [example.arguments for example in examples])
             except (BoxLost, ValueError) as error:
@@ -91,7 +96,12 @@ def grade(job: dict, libraries: _Libraries) -> dict:
     finally:
         student.close()
     cpu = time.process_time() - before + student.cpu
-    return {"exercises": result, "notes": student.notes, "boxes": student.starts, "cpu": round(cpu, 2)}
+    return {
+        "exercises": result,
+        "notes": notes + student.notes,
+        "boxes": student.starts,
+        "cpu": round(cpu, 2),
+    }
 
 
 @cache
@@ -100,7 +110,10 @@ def _known(course: Course, unit: str, name: str, seed: int) -> list[Example]:
     return hidden_examples(course, exercise, seed, unit)
 
 
-def _examples(course: Course, exercise: Exercise, seed: int, unit: str) -> list[Example]:
+def _examples(course: Course, exercise: Exercise, seed: int, unit: str, arm: int) -> list[Example]:
+    if exercise.own:  # others for each student
+        with own.using(arm):
+            return hidden_examples(course, exercise, seed, unit)
     return _known(course, unit, exercise.name, seed)
 
 
@@ -110,7 +123,7 @@ def _told(found: Verdict) -> str:
 
 
 def hidden_examples(course: Course, exercise: Exercise, seed: int, unit: str) -> list[Example]:
-    """Inputs and right answers that are the same for every student: what differs is what they wrote."""
+    """Inputs and right answers: the same for every student, unless the exercise asks for their own arm."""
     rng = _hidden(exercise, seed, unit)
     rows = tables.rows(course, unit, exercise, max(exercise.n, exercise.least), rng)
     return examples_of(exercise, {"examples": rows})
