@@ -30,7 +30,7 @@ def main(argv: list[str] | None = None) -> int:
         command.run(options)
         return 0
     except ImportError as error:
-        if not (error.name or "").startswith("coursekit.classroom"):
+        if not (error.name or "").startswith(("coursekit.classroom", "coursekit.site")):
             raise
         print(f"coursekit {options.command} is not part of the students' version", file=sys.stderr)
     except (ValueError, OSError) as error:

@@ -96,6 +96,12 @@ def _export(options: Namespace) -> None:
     print(f"wrote {options.out}\n{nbgrader.WARNING}")
 
 
+def _site(options: Namespace) -> None:
+    from . import site
+
+    print(site.write(options.out, _course(options)))
+
+
 def _samples(options: Namespace) -> None:
     from .classroom.author import tables
 
@@ -171,6 +177,11 @@ COMMANDS = {
             _argument("target", choices=["nbgrader"]),
             _argument("out", type=Path, help="a folder that does not exist yet"),
         ),
+    ),
+    "site": Command(
+        _site,
+        "write the course as a folder for a web server: pages that move",
+        (_argument("out", type=Path, help="a folder that does not exist yet"),),
     ),
     "samples": Command(_samples, "write the tables that `check` uses, from solved notebooks and mistakes"),
     "execute": Command(

@@ -34,7 +34,7 @@ def pytest_xdist_make_scheduler(config, log):
     class Together(LoadFileScheduling):
         def _split_scope(self, nodeid):
             file = super()._split_scope(nodeid)
-            return "tests/browser" if file.startswith("tests/browser/") else file
+            return "tests/browser" if file.startswith(("tests/browser/", "tests/site/")) else file
 
     return Together(config, log)
 

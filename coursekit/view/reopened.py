@@ -29,7 +29,7 @@ EXPLORERS = {  # title -> function of coursekit.view
     "Explorer of the path": "explore_path",
 }
 _LINE = re.compile(r"(?P<title>Explorer of [^:]+): (?P<name>[^:]+): joints \((?P<joints>[^()]*)\)")
-_HINT = "No kernel runs here: sliders move the arm; run the notebook for frames, numbers and plots."
+HINT = "No kernel runs here: sliders move the arm; run the notebook for frames, numbers and plots."
 
 
 @functools.lru_cache(maxsize=32)
@@ -103,4 +103,4 @@ class Exporter(HTMLExporter):
 
 def _frame(page):
     style = "width: 100%; height: 600px; border: 0"
-    return f'<iframe srcdoc="{html.escape(page)}" style="{style}" loading="lazy"></iframe><p>{_HINT}</p>'
+    return f'<iframe srcdoc="{html.escape(page)}" style="{style}" loading="lazy"></iframe><p>{HINT}</p>'
