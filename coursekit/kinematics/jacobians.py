@@ -25,6 +25,7 @@ __all__ = [
     "manipulability",
     "planar",
     "skew_theory",
+    "transform_rate",
 ]
 
 
@@ -62,16 +63,33 @@ def by_matrix_derivative(robot: Robot, theta: ArrayLike) -> np.ndarray:
     [[1.0, 1.0], [0.0, 0.0], [2.0, 1.0]]
     """
     theta = checks.joint_angles(theta, robot.n, robot.name)
-    H = lie.exp6(robot.S.T * theta[..., None])
-    H_dot = lie.hat6(robot.S.T) @ H
     T_left = _transforms_before(robot, theta)
-    T = robot.fk(theta)
-    T_right = lie.inverse(T_left @ H) @ T[..., None, :, :]
-    T_o = np.zeros_like(T)
-    T_o[..., :3, :3], T_o[..., 3, 3] = np.swapaxes(T[..., :3, :3], -1, -2), 1
-    T_dot = T_left @ H_dot @ T_right @ T_o[..., None, :, :]
-    rows = [T_dot[..., 2, 1], T_dot[..., 0, 2], T_dot[..., 1, 0], *np.moveaxis(T_dot[..., :3, 3], -1, 0)]
-    return np.stack(rows, axis=-2)
+    before_and_own = T_left @ lie.exp6(robot.S.T * theta[..., None])
+    T_right = lie.inverse(before_and_own) @ robot.fk(theta)[..., None, :, :]
+    return np.swapaxes(transform_rate(T_left, robot.S.T, theta, T_right)[1], -1, -2)
+
+
+def transform_rate(
+    T_left: ArrayLike, S: ArrayLike, theta: ArrayLike, T_right: ArrayLike
+) -> tuple[np.ndarray, np.ndarray]:
+    """Differentiate T = T_left H T_right, H = e^[S]theta, by theta. -> (T_dot (..., 4, 4), column (..., 6)).
+
+    Only H depends on theta, and H_dot = [S] H. Behind T_dot, T_o takes the rotation of T back: then [omega]
+    stands above left and v of the tool point in the last column, both along the base axes. S (..., 6) is the
+    screw of the joint in the frame that T_left leads to, theta (...) rad or m; T_left and T_right (..., 4, 4).
+    Innopolis assignment 3 (2020), section 3.
+
+    >>> tool = lie.exp6([0, 0, 0, 0.5, 0, 0])
+    >>> transform_rate(np.eye(4), [0, 0, 1, 0, 0, 0], 0.0, tool)[1].tolist()
+    [0.0, 0.0, 1.0, 0.0, 0.5, 0.0]
+    """
+    S, theta = checks.array(S, (6,), "S"), checks.array(theta, (), "theta")
+    T_left, T_right = checks.pose(T_left, "T_left"), checks.pose(T_right, "T_right")
+    H = lie.exp6(S * theta[..., None])
+    T_dot = T_left @ lie.hat6(S) @ H @ T_right
+    R = (T_left @ H @ T_right)[..., :3, :3]
+    w = lie.vee3(T_dot[..., :3, :3] @ np.swapaxes(R, -1, -2))
+    return T_dot, np.concatenate([w, T_dot[..., :3, 3]], axis=-1)
 
 
 def by_differences(robot: Robot, theta: ArrayLike, step: float = 1e-5) -> np.ndarray:

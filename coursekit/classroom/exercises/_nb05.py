@@ -154,3 +154,48 @@ def factor_missed(args, value, right) -> str:
         )
     idle = np.linalg.norm(value - Vt.T @ (Vt @ value))
     return f"a part of your step, {idle:.2g} rad, moves nothing: J times it is 0" if idle > SMALL else ""
+
+
+def rate_missed(args, value, right) -> str:
+    """What T-dot says of the tool point, then what the column says."""
+    (T_dot, column), (T_dot_right, column_right) = value, right
+    if not (np.isfinite(T_dot).all() and np.isfinite(column).all()):
+        return ""
+    if np.abs(T_dot[3]).max() > SMALL:
+        return "the last row of your T-dot is not 0 0 0 0: the 1 of a pose does not change"
+    told = _vector_missed(T_dot[:3, 3], T_dot_right[:3, 3], "the tool's velocity", "m/s")
+    if told:
+        return f"in your T-dot, {told.replace('by your Jacobian', 'there').replace(' in your Jacobian', '')}"
+    if np.abs(T_dot - T_dot_right).max() > SMALL:
+        return "the last column of your T-dot is right, the change of the rotation is not"
+    told = _vector_missed(column[:3], column_right[:3], "omega", "rad/s") or _vector_missed(
+        column[3:], column_right[3:], "the tool's velocity", "m/s"
+    )
+    return told.replace("Jacobian", "column")
+
+
+def power_missed(args, value, right) -> str:
+    """The power of one joint that turns at 1 rad/s, against what the tool takes meanwhile."""
+    if value.shape != right.shape:
+        return f"your answer has {_counted(len(value), 'torque')} for {_counted(len(right), 'joint')}"
+    if not np.isfinite(value).all():
+        return ""
+    i = int(np.argmax(np.abs(value - right) > 1e-3))
+    if abs(value[i] - right[i]) <= SMALL:
+        return ""
+    return (
+        f"when joint {i + 1} turns at 1 rad/s, the tool gives {right[i]:.3g} W against the load; "
+        f"your torque puts in {value[i]:.3g} W"
+    )
+
+
+def target_missed(args, value, right) -> str:
+    """How far from the target the run ends, beside how far the right one is by then."""
+    robot, T_sd = args[:2]
+    if value.shape != right.shape:
+        return f"your answer has shape {value.shape}; {len(right)} rows are expected, the start and every step"
+    if not np.isfinite(value).all():
+        return ""
+    mine, there = (robot.fk(rows[-1])[:3, 3] for rows in (value, right))
+    mine, there = (1000 * np.linalg.norm(p - T_sd[:3, 3]) for p in (mine, there))
+    return f"your run ends with the tool {mine:.3g} mm from the target; the right one with {there:.3g} mm"

@@ -5,161 +5,28 @@ from __future__ import annotations
 import numpy as np
 
 from coursekit.classroom.exercise import Block, Edge, Exercise, Hint
+from coursekit.classroom.exercises import _jacobians as draws
 from coursekit.classroom.exercises import _nb05 as residuals
 from coursekit.classroom.exercises import looks
 
 # What the student's functions may call from coursekit.kinematics: what notebooks 01 to 03 had them write or
-# told them to use, and `log3`.
+# told them to use, and what this one tells them to use.
 ALLOW = (
     "lie.exp6",
     "lie.adjoint",
     "lie.inverse",
     "lie.hat3",
     "lie.vee3",
+    "lie.hat6",
+    "lie.vee6",
     "lie.log3",
     "lie.log6",
     "rotations.rotx",
     "rotations.roty",
     "rotations.rotz",
     "robot.Robot.fk",
+    "robot.Robot.jacobian_body",
 )
-KR10 = (  # its screws: w and a point of each axis
-    ((0, 0, -1), (0, 1, 0), (0, 1, 0), (-1, 0, 0), (0, 1, 0), (-1, 0, 0)),
-    ((0, 0, 0), (0.025, 0, 0.4), (0.585, 0, 0.4), (0, 0, 0.425), (1.1, 0, 0.425), (0, 0, 0.425)),
-)
-KR10_TOOL = np.array([1.19, 0, 0.425])
-
-
-def _angles(rng, n):
-    """Angles that are not near a multiple of 90 degrees, where mistakes hide."""
-    return np.pi / 2 * rng.integers(-2, 2, n) + rng.uniform(0.2, 1.3, n)
-
-
-def _axes(rng, n):
-    """Unit vectors (n, 3)."""
-    w = rng.normal(size=(n, 3))
-    return w / np.linalg.norm(w, axis=1, keepdims=True)
-
-
-def _screws(rng, n=None):
-    n = n or int(rng.integers(4, 8))
-    w, q = _axes(rng, n), rng.uniform(-0.6, 0.6, (n, 3))
-    return np.column_stack([w, np.cross(q, w)]).T, _angles(rng, n)
-
-
-def _screws_with_slide(rng):
-    S, theta = _screws(rng, 5)
-    S[:, 2] = [0, 0, 0, *_axes(rng, 1)[0]]
-    return S, theta
-
-
-def _screws_with_pitch(rng):
-    S, theta = _screws(rng, 4)
-    S[3:] += rng.uniform(0.05, 0.3, 4) * S[:3]
-    return S, theta
-
-
-def _screws_of_the_kr10(angles):
-    def draw(rng):
-        w, q = map(np.array, KR10)
-        return np.column_stack([w, np.cross(q, w)]).T, angles(rng)
-
-    return draw
-
-
-def _whole_screws(rng):
-    """A planar arm with links of 2 m and 1 m, and an axis that lies in its plane."""
-    S = np.zeros((6, 4), int)
-    S[2, :3], S[4, 1:3], S[0, 3], S[4, 3] = 1, (-2, -3), 1, 1
-    return S, rng.permutation([1, 2, -1, -2])
-
-
-def _hinges(rng, n=None):
-    n = n or int(rng.integers(4, 8))
-    return _axes(rng, n), rng.uniform(-0.6, 0.6, (n, 3)), rng.uniform(-1.0, 1.0, 3)
-
-
-def _tool_on_an_axis(rng):
-    axes, origins, _ = _hinges(rng, 4)
-    return axes, origins, origins[2] + rng.uniform(0.2, 0.6) * axes[2]
-
-
-def _tool_at_the_origin(rng):
-    axes, origins, _ = _hinges(rng, 4)
-    return axes, origins, np.zeros(3)
-
-
-def _hinges_of_the_kr10(rng):
-    return np.array(KR10[0]), np.array(KR10[1]), KR10_TOOL
-
-
-def _arm_and_step(rng, name=None):
-    """The forward kinematics of an arm, a configuration and a step of 0.0005 to 0.001 rad."""
-    names = {"kuka_kr6": 6, "abb_irb1200": 6, "franka_panda": 7, "kawasaki_s030": 6, "planar_2r": 2}
-    name = name or str(rng.choice(list(names)[:4]))
-    return {"fk": name}, _angles(rng, names[name]), rng.uniform(5e-4, 1e-3)
-
-
-def _coarse(rng):
-    return {"fk": "kuka_kr6"}, _angles(rng, 6), 0.1
-
-
-# Central differences of positions are all alike, whatever the step. The turn between two poses may be taken
-# as a logarithm, or from the entries of R_+ - R_-: that differs by step^2 / 6.
-COARSE_TOL = np.repeat([[0.003], [1e-7]], 3, axis=0)
-
-
-def _rows(rng, n=None, lowest=(1.2, 0.6, 0.1), highest=(1.8, 0.9, 0.4)):
-    """Three rows of a Jacobian whose singular values are well apart."""
-    n = n or int(rng.integers(3, 8))
-    U, V = (np.linalg.qr(rng.normal(size=(k, k)))[0] for k in (3, n))
-    return (U @ np.diag(rng.uniform(lowest, highest)) @ V[:3],)
-
-
-def _flat_rows(rng):
-    """Rank 2: rounding makes the least eigenvalue of J J^T a tiny number of either sign."""
-    return _rows(rng, 5, (1.2, 0.6, 0.0), (1.8, 0.9, 0.0))
-
-
-def _panda_stretched(rng):
-    """omega of the Panda at theta = 0."""
-    return ([[0, 0, 0, 0, 0, 0, 0], [0, 1, 0, -1, 0, -1, 0], [1, 0, 1, 0, 1, 0, -1]],)
-
-
-def _step(rng, shape=None, least=None):
-    """A Jacobian, nearly singular, an error and a damping."""
-    m, n = shape or [(6, 7), (6, 6), (3, 7), (3, 3)][rng.integers(4)]
-    U, V = (np.linalg.qr(rng.normal(size=(k, k)))[0] for k in (m, n))
-    r = min(m, n)
-    sigma = rng.uniform(0.3, 1.5, r)
-    sigma[-1] = rng.uniform(0.02, 0.1) if least is None else least
-    return U[:, :r] @ np.diag(sigma) @ V[:r], rng.uniform(-0.5, 0.5, m), rng.uniform(0.1, 0.4)
-
-
-def _singular_step(rng):
-    """A row of zeros: whatever the joints do, nothing moves along it."""
-    J, e, k = _step(rng, (3, 4))
-    J[rng.integers(3)] = 0
-    return J, e, k
-
-
-def _whole_step(rng):
-    return rng.permutation([[1, 0, 2], [0, 1, -1]]), rng.permutation([1, -2]), 3
-
-
-def _planar(rng):
-    return _angles(rng, 2), rng.choice([-1, 1], 2) * rng.uniform(0.4, 2.0, 2), rng.uniform(0.2, 0.8, 2)
-
-
-def _straight(rng):
-    theta, rate, lengths = _planar(rng)
-    return theta * [1, 0], rate, lengths
-
-
-def _whole_planar(rng):
-    return rng.permutation([1, 2]), rng.permutation([1, -2]), rng.permutation([2, 1])
-
-
 def _own_turn(f, args, J):
     """No joint moves its own axis, and no joint moves the axes before it."""
     S, theta = args
@@ -188,12 +55,29 @@ def _much_damping(f, args, step):
     return bool(np.allclose(1e8 * np.asarray(f(J, e, 1e4)), J.T @ e, atol=1e-4))
 
 
+def _no_last_row(f, args, value):
+    """1 stays 1: its rate is 0."""
+    return bool(np.allclose(value[0][3], 0, atol=1e-9))
+
+
+def _same_power(f, args, tau):
+    """Whatever the rates, the joints give as much power as the tool takes."""
+    J, T, moment, force = args
+    turns = np.kron(np.eye(2), T[:3, :3])
+    return bool(np.allclose(tau, np.concatenate([moment, force]) @ turns @ J, atol=1e-6))
+
+
+def _starts_at_theta(f, args, rows):
+    """The first row is where the run begins."""
+    return bool(np.allclose(rows[0], args[2], atol=1e-12))
+
+
 EXERCISES = [
     Exercise(
         "jacobian_space(S, theta)",
         look=looks.screws,
         points=3,
-        draw=_screws,
+        draw=draws.screws,
         shape=(6, None),
         unit="1, m",
         laws=(("turning the last joint moves no joint axis: all columns must stay", _own_turn),),
@@ -202,14 +86,14 @@ EXERCISES = [
         edges=(
             Edge(
                 "for the KR10 at right angles",
-                _screws_of_the_kr10(lambda r: np.pi / 2 * r.permutation([1, -1, 2, 1, -1, 0])),
+                draws.screws_of_the_kr10(lambda r: np.pi / 2 * r.permutation([1, -1, 2, 1, -1, 0])),
             ),
-            Edge("for the KR10 at theta = 0", _screws_of_the_kr10(lambda r: np.zeros(6))),
-            Edge("for an arm with one joint", lambda rng: _screws(rng, 1)),
-            Edge("for an arm with seven joints", lambda rng: _screws(rng, 7)),
-            Edge("for an arm with a slide", _screws_with_slide),
-            Edge("for screws with pitch", _screws_with_pitch),
-            Edge("for whole numbers", _whole_screws),
+            Edge("for the KR10 at theta = 0", draws.screws_of_the_kr10(lambda r: np.zeros(6))),
+            Edge("for an arm with one joint", lambda rng: draws.screws(rng, 1)),
+            Edge("for an arm with seven joints", lambda rng: draws.screws(rng, 7)),
+            Edge("for an arm with a slide", draws.screws_with_slide),
+            Edge("for screws with pitch", draws.screws_with_pitch),
+            Edge("for whole numbers", draws.whole_screws),
         ),
         residual=residuals.axis_missed,
         hints=(
@@ -227,18 +111,18 @@ EXERCISES = [
     Exercise(
         "jacobian_geometric(axes, origins, tool)",
         points=3,
-        draw=_hinges,
+        draw=draws.hinges,
         shape=(6, None),
         unit="1, m",
         laws=(("joint 1 cannot move a tool that lies on axis 1", _tool_on_axis),),
         samples=3,
         usual="for ordinary hinges",
         edges=(
-            Edge("for axes that are whole numbers", _hinges_of_the_kr10),
-            Edge("for an arm with one joint", lambda rng: _hinges(rng, 1)),
-            Edge("for an arm with three joints", lambda rng: _hinges(rng, 3)),
-            Edge("where the tool lies on an axis", _tool_on_an_axis),
-            Edge("where the tool is at the base origin", _tool_at_the_origin),
+            Edge("for axes that are whole numbers", draws.hinges_of_the_kr10),
+            Edge("for an arm with one joint", lambda rng: draws.hinges(rng, 1)),
+            Edge("for an arm with three joints", lambda rng: draws.hinges(rng, 3)),
+            Edge("where the tool lies on an axis", draws.tool_on_an_axis),
+            Edge("where the tool is at the base origin", draws.tool_at_the_origin),
         ),
         residual=residuals.velocity_missed,
         hints=(
@@ -254,16 +138,16 @@ EXERCISES = [
     Exercise(
         "jacobian_by_differences(fk, theta, step)",
         points=3,
-        draw=_arm_and_step,
+        draw=draws.arm_and_step,
         shape=(6, None),
         unit="1, m",
         tol=2e-6,
         usual="for a small step",
         samples=3,
         edges=(
-            Edge("for a step of 0.1 rad", _coarse, tol=COARSE_TOL),
-            Edge("for an arm with seven joints", lambda rng: _arm_and_step(rng, "franka_panda")),
-            Edge("for an arm with two joints", lambda rng: _arm_and_step(rng, "planar_2r")),
+            Edge("for a step of 0.1 rad", draws.coarse, tol=draws.COARSE_TOL),
+            Edge("for an arm with seven joints", lambda rng: draws.arm_and_step(rng, "franka_panda")),
+            Edge("for an arm with two joints", lambda rng: draws.arm_and_step(rng, "planar_2r")),
             Edge("for the KR10 at theta = 0", lambda rng: ({"fk": "kuka_kr10"}, np.zeros(6), 1e-3)),
             Edge(
                 "where theta holds whole numbers",
@@ -299,7 +183,7 @@ EXERCISES = [
         "ellipsoid(J)",
         look=looks.ellipsoid,
         points=2,
-        draw=_rows,
+        draw=draws.rows,
         shape=((3,), (3, 3)),
         compare=("close", "columns_up_to_sign"),
         unit="m/s",
@@ -308,10 +192,10 @@ EXERCISES = [
         laws=(("twice the Jacobian makes half axes twice as long", _scaled),),
         blocks=(Block("the half axes", plural=True), Block("the directions", part=1, plural=True)),
         edges=(
-            Edge("for the Panda at theta = 0", _panda_stretched),
-            Edge("for a singular J", _flat_rows, count=3),
-            Edge("for three joints", lambda rng: _rows(rng, 3)),
-            Edge("for seven joints", lambda rng: _rows(rng, 7)),
+            Edge("for the Panda at theta = 0", draws.panda_stretched),
+            Edge("for a singular J", draws.flat_rows, count=3),
+            Edge("for three joints", lambda rng: draws.rows(rng, 3)),
+            Edge("for seven joints", lambda rng: draws.rows(rng, 7)),
         ),
         residual=residuals.half_axis_missed,
         hints=(
@@ -328,19 +212,19 @@ EXERCISES = [
     Exercise(
         "dls_step(J, e, k)",
         points=2,
-        draw=_step,
+        draw=draws.step,
         shape=(None,),
         unit="rad",
         laws=(("the more damping, the nearer the step comes to J^T e / k^2", _much_damping),),
         samples=3,
         usual="for an ordinary J",
         edges=(
-            Edge("for more joints than rows", lambda rng: _step(rng, (3, 7))),
-            Edge("for as many joints as rows", lambda rng: _step(rng, (3, 3))),
-            Edge("for fewer joints than rows", lambda rng: _step(rng, (4, 3))),
-            Edge("for one joint", lambda rng: _step(rng, (2, 1))),
-            Edge("for a singular J", _singular_step),
-            Edge("for whole numbers", _whole_step),
+            Edge("for more joints than rows", lambda rng: draws.step(rng, (3, 7))),
+            Edge("for as many joints as rows", lambda rng: draws.step(rng, (3, 3))),
+            Edge("for fewer joints than rows", lambda rng: draws.step(rng, (4, 3))),
+            Edge("for one joint", lambda rng: draws.step(rng, (2, 1))),
+            Edge("for a singular J", draws.singular_step),
+            Edge("for whole numbers", draws.whole_step),
         ),
         residual=residuals.factor_missed,
         hints=(
@@ -355,7 +239,7 @@ EXERCISES = [
         "tool_velocity(theta, rate, lengths)",
         look=looks.velocity,
         points=2,
-        draw=_planar,
+        draw=draws.planar,
         shape=((2,), (2,)),
         unit="m/s",
         laws=(("a velocity has the same length in every frame", _same_length),),
@@ -364,17 +248,17 @@ EXERCISES = [
         blocks=(Block("v_B"), Block("v_E", part=1)),
         edges=(
             Edge("for the arm of the exam", lambda rng: ([np.pi / 4, -np.pi / 2], [1, -1], [0.5, 0.25])),
-            Edge("for a straight arm (theta_2 = 0)", _straight),
-            Edge("where both angles are 0", lambda rng: ([0.0, 0.0], *_planar(rng)[1:])),
+            Edge("for a straight arm (theta_2 = 0)", draws.straight),
+            Edge("where both angles are 0", lambda rng: ([0.0, 0.0], *draws.planar(rng)[1:])),
             Edge(
                 "where joint 2 stands still",
-                lambda rng: (_angles(rng, 2), [rng.uniform(0.5, 2), 0], [0.6, 0.3]),
+                lambda rng: (draws.angles(rng, 2), [rng.uniform(0.5, 2), 0], [0.6, 0.3]),
             ),
             Edge(
                 "where joint 1 stands still",
-                lambda rng: (_angles(rng, 2), [0, rng.uniform(0.5, 2)], [0.6, 0.3]),
+                lambda rng: (draws.angles(rng, 2), [0, rng.uniform(0.5, 2)], [0.6, 0.3]),
             ),
-            Edge("for whole numbers", _whole_planar),
+            Edge("for whole numbers", draws.whole_planar),
         ),
         residual=residuals.planar_velocity_missed,
         hints=(
@@ -387,6 +271,105 @@ EXERCISES = [
             Hint("turned_wrong_way", "R_BE takes E to B; to see v_B from E you need it the other way round"),
             Hint("theta2_alone", "frame E is turned by theta_1 + theta_2 against the base"),
             Hint("rate2_alone", "link 2 turns with both rates: joint 1 carries it along"),
+        ),
+    ),
+    Exercise(
+        "transform_rate(T_left, S, theta, T_right)",
+        points=3,
+        draw=draws.factor(),
+        shape=((4, 4), (6,)),
+        unit="1, m",
+        laws=(("the last row of a pose never changes: that of T-dot is 0 0 0 0", _no_last_row),),
+        samples=3,
+        usual="for an ordinary hinge",
+        blocks=(
+            Block("T-dot"),
+            Block("the upper half of the column (omega)", np.s_[:3], part=1),
+            Block("the lower half of the column (v)", np.s_[3:], part=1),
+        ),
+        edges=(
+            Edge("for a turn about y", draws.turn_about_y),
+            Edge("where theta is 0", draws.factor(angle=0.0)),
+            Edge("where T_left is the identity", draws.factor(left=np.eye(4))),
+            Edge("for a slide", draws.slide),
+            Edge("for a screw with pitch", draws.screw_with_pitch),
+            Edge("for whole numbers", draws.whole_factor),
+        ),
+        residual=residuals.rate_missed,
+        hints=(
+            Hint("no_turn_back", "T-dot still holds the rotation of T: multiply by T_o, then read omega"),
+            Hint(
+                "space",
+                "T_o takes back the rotation alone: with the whole inverse of T, v is that of the point at the"
+                " base origin (J_s)",
+            ),
+            Hint("body", "the inverse of T on the left gives the column of J_b, along the tool's axes"),
+            Hint("swapped", "T_left stands before H, T_right behind it"),
+            Hint("at_zero", "H-dot is [S] H: you have [S] alone, which is its value at theta = 0"),
+            Hint("undifferentiated", "this is T, not its derivative: one factor has to become H-dot"),
+            Hint("rows_swapped", "the column is (omega; v): you have v on top, as the assignment of 2020 does"),
+            Hint("wrong_entries", "omega has the wrong sign: it stands in the entries (3,2), (1,3), (2,1)"),
+        ),
+    ),
+    Exercise(
+        "torques(J_b, T, moment, force)",
+        points=2,
+        draw=draws.wrench,
+        shape=(None,),
+        unit="N m",
+        laws=(("the power of the joints is the power of the tool, whatever the rates", _same_power),),
+        samples=3,
+        usual="for an ordinary arm",
+        edges=(
+            Edge("where the tool stands along the base", lambda rng: draws.wrench(rng, R=np.eye(3))),
+            Edge("for a force alone", lambda rng: draws.wrench(rng, moment=np.zeros(3))),
+            Edge("for a moment alone", lambda rng: draws.wrench(rng, force=np.zeros(3))),
+            Edge("for six joints", lambda rng: draws.wrench(rng, 6)),
+            Edge("for two joints", lambda rng: draws.wrench(rng, 2)),
+            Edge("for whole numbers", draws.whole_wrench),
+        ),
+        residual=residuals.power_missed,
+        hints=(
+            Hint("not_turned", "J_b lies along the tool, the force along the base: turn one to the other"),
+            Hint("turned_wrong_way", "R carries tool to base; the force has to go the other way"),
+            Hint("rows_swapped", "J_b has omega on top: the moment belongs there, the force below"),
+            Hint("inverse", "forces need no inverse: it is the transpose that carries them to the joints"),
+            Hint("no_moment", "your torques do not change with the moment"),
+            Hint("about_base", "the moment is given at the tool point: no p x f has to be added"),
+            Hint("against", "these torques give way: the joints must push as the tool is to push"),
+        ),
+    ),
+    Exercise(
+        "dls_loop(robot, T_sd, theta, k, steps)",
+        points=3,
+        draw=draws.run,
+        shape=(None, None),
+        unit="rad",
+        laws=(("the first row is the start", _starts_at_theta),),
+        samples=3,
+        n=12,
+        timeout=20.0,
+        usual="for an ordinary start",
+        blocks=(Block("the start", np.s_[0]), Block("the first step", np.s_[1]), Block("the end", np.s_[-1])),
+        edges=(
+            Edge("for one step", lambda rng: draws.run(rng, steps=1)),
+            Edge("for an arm with seven joints", lambda rng: draws.run(rng, "franka_panda")),
+            Edge("where the arm is there already", lambda rng: draws.run(rng, off=0.0, steps=2)),
+            Edge("for a k of 1", lambda rng: draws.run(rng, k=1.0)),
+            Edge("from a singular start", draws.run_from_a_singular_start),
+            Edge("for whole numbers", draws.run_of_whole_numbers),
+        ),
+        residual=residuals.target_missed,
+        hints=(
+            Hint("space_error", "e must lie along the tool, as J_b does: log(T_sb^-1 T_sd)"),
+            Hint(
+                "backwards",
+                "your steps lead away from the target: look at their sign, and at which pose is inverted in e",
+            ),
+            Hint("frozen", "J_b has to be computed anew in every step: it changes with theta"),
+            Hint("from_the_start", "every step must begin where the last one ended"),
+            Hint("other_jacobian", "e is a body twist: it wants J_b, not the Jacobian along the base"),
+            Hint("undamped", "k makes no difference to your run: these are Newton's steps"),
         ),
     ),
 ]

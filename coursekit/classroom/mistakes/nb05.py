@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from coursekit.classroom.mistakes import Solved
+from coursekit.classroom.mistakes import _nb05 as more
 from coursekit.kinematics import lie, rotations
 
 right = Solved("nb05")
@@ -251,4 +252,5 @@ WRONG = {
         "theta2_alone": velocity_turned_by_theta2,
         "rate2_alone": velocity_with_rate2_alone,
     },
+    **more.WRONG,
 }
