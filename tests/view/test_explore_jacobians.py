@@ -96,6 +96,28 @@ def test_the_ellipsoids_go_along_while_a_run_is_played(panel):
     np.testing.assert_array_equal(panel.scene.pose(), before)
 
 
+def test_a_named_pose_is_reached_beyond_the_limits_too():
+    model, theta = robots.kuka_kr10_report(), [0, -np.pi / 6, -2.2829525304720546, 0, np.pi / 6, 0]
+    assert not model.within_limits(theta)
+    panel = view.explore_jacobians(model, poses={"alignment as printed": theta, "zero": np.zeros(6)})
+    try:
+        panel._controls["to_alignment_as_printed"].act()
+        panel.viewer.set_trait("playing", False)
+        panel.viewer.set_trait("frame", 30)  # as the page says when the motion rests
+        np.testing.assert_allclose(panel.values["theta"], theta, atol=1e-9)
+        assert "shown: step" not in panel.line.value  # the runs begin here
+        played = np.frombuffer(panel.viewer.motion_poses).reshape(panel.viewer.motion["frames"], -1, 4, 4)
+        body = panel.viewer.motion["moving"].index("/ck/linear/body")
+        np.testing.assert_allclose(played[-1][body].T[:3, 3], model.fk(theta)[:3, 3], atol=1e-9)
+    finally:
+        panel.close()
+
+
+def test_a_named_pose_of_another_arm_is_refused():
+    with pytest.raises(ValueError, match="6 joints"):
+        view.explore_jacobians(robots.kuka_kr10(), poses={"home": np.zeros(7)})
+
+
 @pytest.mark.parametrize("name", robots.all())
 def test_every_arm(name):
     robot = robots.all()[name]

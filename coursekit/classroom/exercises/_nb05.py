@@ -193,7 +193,7 @@ def target_missed(args, value, right) -> str:
     """How far from the target the run ends, beside how far the right one is by then."""
     robot, T_sd = args[:2]
     if value.shape != right.shape:
-        return f"your answer has shape {value.shape}; {len(right)} rows are expected, the start and every step"
+        return f"your answer has shape {value.shape}; {len(right)} rows are expected: start and steps"
     if not np.isfinite(value).all():
         return ""
     mine, there = (robot.fk(rows[-1])[:3, 3] for rows in (value, right))

@@ -27,6 +27,8 @@ ALLOW = (
     "robot.Robot.fk",
     "robot.Robot.jacobian_body",
 )
+
+
 def _own_turn(f, args, J):
     """No joint moves its own axis, and no joint moves the axes before it."""
     S, theta = args
@@ -307,7 +309,9 @@ EXERCISES = [
             Hint("swapped", "T_left stands before H, T_right behind it"),
             Hint("at_zero", "H-dot is [S] H: you have [S] alone, which is its value at theta = 0"),
             Hint("undifferentiated", "this is T, not its derivative: one factor has to become H-dot"),
-            Hint("rows_swapped", "the column is (omega; v): you have v on top, as the assignment of 2020 does"),
+            Hint(
+                "rows_swapped", "the column is (omega; v): you have v on top, as the assignment of 2020 does"
+            ),
             Hint("wrong_entries", "omega has the wrong sign: it stands in the entries (3,2), (1,3), (2,1)"),
         ),
     ),

@@ -1,8 +1,12 @@
 """Notebook 05: ellipsoids at the tool, one Jacobian by four methods, Newton against damped least squares."""
 
-import numpy as np
+from collections.abc import Mapping
+from functools import partial
 
-from coursekit.kinematics import ik, jacobians, robots, singularity
+import numpy as np
+from numpy.typing import ArrayLike
+
+from coursekit.kinematics import checks, ik, jacobians, robots, singularity
 from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Action, Slider, Toggle, joint_sliders
@@ -27,7 +31,9 @@ METHODS = {
 }
 
 
-def explore_jacobians(robot: Robot | None = None, height: int = 470) -> Panel:
+def explore_jacobians(
+    robot: Robot | None = None, height: int = 470, poses: Mapping[str, ArrayLike] | None = None
+) -> Panel:
     """Open the explorer of Jacobian methods.
 
     The sliders set the configuration. At the tool stand the ellipsoids of its linear and angular velocity
@@ -38,8 +44,13 @@ def explore_jacobians(robot: Robot | None = None, height: int = 470) -> Panel:
     ----------
     robot : Robot, optional
         Any arm; the Franka Panda without it.
+    poses : mapping of name -> theta (n,), optional
+        Configurations with a name, each with a button that drives the arm there; also beyond the limits, which
+        the sliders then say. A name becomes that of a control: letters and spaces.
     """
-    return _Jacobians(robots.franka_panda() if robot is None else robot).open(height)
+    robot = robots.franka_panda() if robot is None else robot
+    named = {name: checks.joint_angles(theta, robot.n, robot.name) for name, theta in (poses or {}).items()}
+    return _Jacobians(robot, named).open(height)
 
 
 class _Jacobians(Explorer):
@@ -48,8 +59,9 @@ class _Jacobians(Explorer):
     name, title, opener = "jacobians", "Explorer of Jacobian methods", "explore_jacobians"
     computed = ("/ck/linear", "/ck/angular")
 
-    def __init__(self, robot):
+    def __init__(self, robot, poses):
         super().__init__(robot)
+        self.poses = poses
         goal = robot.home
         if (
             singularity.sigma_min(robot, goal) < 0.05
@@ -58,6 +70,7 @@ class _Jacobians(Explorer):
         self.target, self.near = robot.fk(goal), _nearly_singular(robot)
         self._key, self._found = None, {}
         self.start, self.damping = self.near, None  # of the runs
+        self.running = False  # a motion shows a run, or else leads to another start
         self.arm = self.scene.robot(robot, self.near)
         self.scene.frame("/ck/target", self.target, letter="d", size=0.14 * self.scene.size)
         # metres drawn for 1 m/s and for 1 rad/s; rounded, so that the text is exact
@@ -74,6 +87,10 @@ class _Jacobians(Explorer):
             Action("near", "near the singularity", lambda: self.panel.set(theta=self.near)),
             Action("newton", "play Newton", lambda: self.play("newton")),
             Action("damped", "play damped", lambda: self.play("damped")),
+            *(
+                Action("to_" + name.replace(" ", "_"), name, partial(self.drive_to, theta))
+                for name, theta in self.poses.items()
+            ),
         ]
 
     def below(self):
@@ -84,7 +101,7 @@ class _Jacobians(Explorer):
             self.damping = values["damping"]
             self.joints.put(self.start)
         self.arm.theta = self.joints.get()
-        if self.frame is None:
+        if self.frame is None or not self.running:
             self.start = self.arm.theta
         self.draw(self.arm.theta)
         for part, drawn in self.ellipsoids.items():
@@ -118,9 +135,15 @@ class _Jacobians(Explorer):
             }
         return self._found
 
+    def drive_to(self, theta):
+        """A motion leads beyond the limits, too, where a slider would stop."""
+        self.running = False
+        self.panel.play(np.linspace(self.panel.values["theta"], theta, 31), follow=self.draw)
+
     def play(self, name):
         """Show the steps of one method, two a second."""
         steps = [step.theta for step in self.found(self.panel.values)[name].history]
+        self.running = True
         self.panel.play(np.array(steps), fps=2.0, follow=self.draw)
 
     def comparison(self, values):
@@ -134,7 +157,7 @@ class _Jacobians(Explorer):
             longest = max(step.step for step in found.history)
             count = f"{found.iterations} steps" if found.converged else f"not there after {STEPS} steps"
             parts.append(f"{title}: {count}, the longest {text.number(longest, 2)} rad")
-        begun = "" if self.frame is None else f" from the start, shown: step {self.frame}"
+        begun = "" if self.frame is None or not self.running else f" from the start, shown: step {self.frame}"
         return f"to {{d}}{begun}  " + "; ".join(parts)
 
     def plot(self, figure, values):
