@@ -76,7 +76,7 @@ def transform_rate(
 
     Only H depends on theta, and H_dot = [S] H. Behind T_dot, T_o takes the rotation of T back: then [omega]
     stands above left and v of the tool point in the last column, both along the base axes. S (..., 6) is the
-    screw of the joint in the frame that T_left leads to, theta (...) rad or m; T_left and T_right (..., 4, 4).
+    screw of the joint in the frame that T_left leads to, theta (...) rad or m; T_left, T_right (..., 4, 4).
     Innopolis assignment 3 (2020), section 3.
 
     >>> tool = lie.exp6([0, 0, 0, 0.5, 0, 0])

@@ -302,7 +302,7 @@ EXERCISES = [
             Hint("no_turn_back", "T-dot still holds the rotation of T: multiply by T_o, then read omega"),
             Hint(
                 "space",
-                "T_o takes back the rotation alone: with the whole inverse of T, v is that of the point at the"
+                "T_o takes back the rotation alone: with the whole inverse of T, v belongs to the"
                 " base origin (J_s)",
             ),
             Hint("body", "the inverse of T on the left gives the column of J_b, along the tool's axes"),
@@ -368,7 +368,7 @@ EXERCISES = [
             Hint("space_error", "e must lie along the tool, as J_b does: log(T_sb^-1 T_sd)"),
             Hint(
                 "backwards",
-                "your steps lead away from the target: look at their sign, and at which pose is inverted in e",
+                "your steps lead away from the target: look at the sign, and at which pose e inverts",
             ),
             Hint("frozen", "J_b has to be computed anew in every step: it changes with theta"),
             Hint("from_the_start", "every step must begin where the last one ended"),

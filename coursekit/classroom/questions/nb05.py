@@ -156,7 +156,7 @@ QUESTIONS = [
             "rate": float(rng.choice([2, 3])),
             "push": float(rng.choice([0.3, 0.5])),
         },
-        text="A hinge turns at {rate} rad/s, the tool is {r} m from its axis. A slide, square to that motion, "
+        text="A hinge turns at {rate} rad/s, the tool is {r} m from its axis. A slide, square to that, "
         "pushes at {push} m/s. How fast is the tool, in m/s?",
         answer=lambda r, rate, push: float(np.hypot(r * rate, push)),
         slips={"The two velocities are square to each other.": lambda r, rate, push: r * rate + push},

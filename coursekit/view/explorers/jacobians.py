@@ -45,8 +45,8 @@ def explore_jacobians(
     robot : Robot, optional
         Any arm; the Franka Panda without it.
     poses : mapping of name -> theta (n,), optional
-        Configurations with a name, each with a button that drives the arm there; also beyond the limits, which
-        the sliders then say. A name becomes that of a control: letters and spaces.
+        Configurations with a name, each with a button that drives the arm there; beyond the limits, too, and
+        the sliders say so.
     """
     robot = robots.franka_panda() if robot is None else robot
     named = {name: checks.joint_angles(theta, robot.n, robot.name) for name, theta in (poses or {}).items()}
