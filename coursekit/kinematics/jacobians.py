@@ -23,6 +23,7 @@ __all__ = [
     "by_matrix_derivative",
     "ellipsoid",
     "manipulability",
+    "of_hinges",
     "planar",
     "skew_theory",
     "transform_rate",
@@ -46,9 +47,24 @@ def skew_theory(robot: Robot, theta: ArrayLike) -> np.ndarray:
     R, p = before[..., :3, :3], before[..., :3, 3]
     w_i, along_i = _apply(R, w), _apply(R, along)
     o_i = _apply(R, point) + p
-    p_n = robot.fk(theta)[..., None, :3, 3]
-    v_i = np.cross(w_i, p_n - o_i) + along_i
-    return np.swapaxes(np.concatenate([w_i, v_i], axis=-1), -1, -2)
+    J = of_hinges(w_i, o_i, robot.fk(theta)[..., :3, 3])
+    J[..., 3:, :] += np.swapaxes(along_i, -1, -2)
+    return J
+
+
+def of_hinges(axes: ArrayLike, origins: ArrayLike, tool: ArrayLike) -> np.ndarray:
+    """Column i is (w_i; w_i x (p - o_i)): a hinge about the direction w_i through the point o_i moves p.
+
+    axes (..., n, 3) unit vectors, origins (..., n, 3) and tool (..., 3) metres, all along the base -> J
+    (..., 6, n). The tool may be any point that all n joints carry, such as the weight of a link.
+
+    >>> of_hinges([[0, 0, 1], [0, 0, 1]], [[0, 0, 0], [0.5, 0, 0]], [0.75, 0, 0])[4].tolist()
+    [0.75, 0.25]
+    """
+    axes, origins = checks.array(axes, (3,), "axes"), checks.array(origins, (3,), "origins")
+    lever = checks.array(tool, (3,), "tool")[..., None, :] - origins
+    v = np.cross(axes, lever)
+    return np.swapaxes(np.concatenate([np.broadcast_to(axes, v.shape), v], axis=-1), -1, -2)
 
 
 def by_matrix_derivative(robot: Robot, theta: ArrayLike) -> np.ndarray:

@@ -165,7 +165,7 @@ def rate_missed(args, value, right) -> str:
         return "the last row of your T-dot is not 0 0 0 0: the 1 of a pose does not change"
     told = _vector_missed(T_dot[:3, 3], T_dot_right[:3, 3], "the tool's velocity", "m/s")
     if told:
-        return f"in your T-dot, {told.replace('by your Jacobian', 'there').replace(' in your Jacobian', '')}"
+        return f"in your T-dot, {told.replace(' by your Jacobian', '').replace(' in your Jacobian', '')}"
     if np.abs(T_dot - T_dot_right).max() > SMALL:
         return "the last column of your T-dot is right, the change of the rotation is not"
     told = _vector_missed(column[:3], column_right[:3], "omega", "rad/s") or _vector_missed(

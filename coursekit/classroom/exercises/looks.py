@@ -117,6 +117,19 @@ def twist(args, s):
     return {"arrows": [(np.zeros(3), s[:3]), (np.array([1.5, 0, 0]), s[3:])]}
 
 
+def column(args, value):
+    """A column of J, beside the matrix it was read from: omega, and the velocity of the tool."""
+    return twist(args, value[1])
+
+
+def end_of_run(args, rows):
+    """The arm at the last configuration, and its tool."""
+    robot, theta = args[0], np.asarray(rows)[-1]
+    tool = robot.fk(theta)
+    joints = robot.link_frames(theta)[:, :3, 3]
+    return {"chains": [np.vstack([np.zeros(3), joints, tool[:3, 3]])], "frames": [tool]}
+
+
 def velocity(args, value):
     """The planar arm, and the velocity of its tip seen from the base."""
     (t1, t2), _, (l1, l2) = args

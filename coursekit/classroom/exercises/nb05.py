@@ -277,6 +277,7 @@ EXERCISES = [
     ),
     Exercise(
         "transform_rate(T_left, S, theta, T_right)",
+        look=looks.column,
         points=3,
         draw=draws.factor(),
         shape=((4, 4), (6,)),
@@ -345,6 +346,7 @@ EXERCISES = [
     ),
     Exercise(
         "dls_loop(robot, T_sd, theta, k, steps)",
+        look=looks.end_of_run,
         points=3,
         draw=draws.run,
         shape=(None, None),

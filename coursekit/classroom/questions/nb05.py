@@ -23,11 +23,14 @@ QUESTIONS = [
     ),
     Question(
         name="recall_rank",
-        draw=lambda rng: {"a": int(rng.integers(2, 9)), "lost": int(rng.integers(1, 3))},
-        text="From notebook 04. A 6 x 6 Jacobian has {lost} singular value(s) below 1e-12; the next one is "
-        "0.{a}. What is its rank?",
-        answer=lambda a, lost: 6 - lost,
-        slips={"You counted the directions that are lost.": lambda a, lost: lost},
+        draw=lambda rng: {
+            "values": str(
+                rng.choice(["1.9, 1.2, 0.8, 0.3, 0.04, 2e-17", "1.7, 1.1, 0.6, 0.2, 3e-16, 8e-17"])
+            )
+        },
+        text="From notebook 04. The singular values of a 6 x 6 Jacobian are {values}. What is its rank?",
+        answer=lambda values: 6 - values.count("e-"),
+        slips={"You counted the directions that are lost.": lambda values: values.count("e-")},
     ),
     Question(
         name="hinge_column",

@@ -3,7 +3,7 @@
 analytic, arm, wrist_centre                        every branch, with limits and reasons
 newton, transpose, damped_least_squares            one solution from a guess, with a history
 newton_step, transpose_step, dls_step              one step of each
-by_the_book                                        the loop around such a step, in its plainest form
+by_the_book  trail                                 the loop around such a step, in its plainest form
 search                                             distinct solutions of any arm, from random starts
 """
 
@@ -16,6 +16,7 @@ from .iteration import (
     dls_step,
     newton,
     newton_step,
+    trail,
     transpose,
     transpose_step,
 )
@@ -34,6 +35,7 @@ __all__ = [
     "newton",
     "newton_step",
     "search",
+    "trail",
     "transpose",
     "transpose_step",
     "wrist_centre",

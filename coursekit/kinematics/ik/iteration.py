@@ -136,6 +136,30 @@ def by_the_book(
     return theta, max_iterations
 
 
+def trail(
+    robot: Robot,
+    T: np.ndarray,
+    theta: np.ndarray,
+    step: Callable[[np.ndarray, np.ndarray], np.ndarray] = newton_step,
+    steps: int = 10,
+) -> np.ndarray:
+    """Every configuration of that loop, whether it arrives or not: the guess first. -> (steps + 1, n)
+
+    T (4, 4), theta (n,), step(J_b, e) -> (n,). Source: Lynch & Park, section 6.2.2.
+
+    >>> from coursekit import ik, robots
+    >>> arm = robots.planar_2r()
+    >>> rows = ik.trail(arm, arm.fk([0.4, 0.6]), np.array([0.3, 0.8]), steps=4)
+    >>> rows.shape, rows[-1].round(9).tolist()
+    ((5, 2), [0.4, 0.6])
+    """
+    rows = [np.array(theta, dtype=float)]
+    for _ in range(steps):
+        e = lie.log6(lie.inverse(robot.fk(rows[-1])) @ T)
+        rows.append(rows[-1] + step(robot.jacobian_body(rows[-1]), e))
+    return np.array(rows)
+
+
 def newton(
     robot: Robot,
     T: ArrayLike,

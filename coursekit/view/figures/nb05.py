@@ -3,16 +3,17 @@
 Every function shows one figure and returns None.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from coursekit.kinematics import ik, jacobians
+from coursekit.kinematics import jacobians
 from coursekit.kinematics.robot import Robot
 from coursekit.view.figures import palette
 
 PARTS = {"linear": ("trace", "m/s"), "angular": ("accent", "rad/s")}
+SHORTEST = 1e-11  # rad
 LINES = (("o", "-", "accent"), ("s", "--", "trace"), ("^", "-.", "axis"), ("D", ":", "bone"))
 
 
@@ -25,7 +26,7 @@ def differences(step: ArrayLike, central: ArrayLike, forward: ArrayLike) -> None
         (forward, central), ("forward", "central"), LINES, strict=False
     ):
         ax.loglog(step, error, line, marker=marker, ms=4, color=palette(color), label=name)
-    ax.set(xlabel="step [rad]", ylabel="largest error of J [1], [m]")
+    ax.set(xlabel="step [rad]", ylabel="largest error of an entry of J\n(omega: 1; v: m)")
     ax.grid(alpha=0.3)
     ax.legend(frameon=False)
     plt.show()
@@ -49,19 +50,59 @@ def ellipsoids(robot: Robot, **thetas: ArrayLike) -> None:
     plt.show()
 
 
-def steps(runs: Mapping[str, Sequence[ik.Step]]) -> None:
-    """How long each step of several iterations is. runs: name -> history of coursekit.ik."""
+def steps(runs: Mapping[str, ArrayLike]) -> None:
+    """How long each step of several runs is. runs: name -> configurations (m, n), the start first."""
     import matplotlib.pyplot as plt
 
     _, ax = plt.subplots(figsize=(6.4, 3.6), layout="constrained")
-    for (name, history), (marker, line, color) in zip(runs.items(), LINES, strict=False):
-        length = [step.step for step in history[1:]]
-        ax.semilogy(
-            range(1, len(length) + 1), length, line, marker=marker, ms=4, color=palette(color), label=name
-        )
-    ax.set(xlabel="step", ylabel="length of the step [rad]", ylim=(1e-11, 30))
+    for (name, rows), (marker, line, color) in zip(runs.items(), LINES, strict=False):
+        length = np.linalg.norm(np.diff(rows, axis=0), axis=1)
+        count = np.arange(1, len(length) + 1)
+        seen = length > SHORTEST  # below it, nothing but rounding
+        ax.semilogy(count[seen], length[seen], line, marker=marker, ms=4, color=palette(color), label=name)
+    ax.set(xlabel="step", ylabel="length of the step [rad]", ylim=(SHORTEST, 30))
     ax.grid(alpha=0.3)
     ax.legend(frameon=False)
+    plt.show()
+
+
+def damping(dampings: Iterable[float], gain: float = 1.0) -> None:
+    """What one step makes of an error of length 1 along a singular direction, over its sigma."""
+    import matplotlib.pyplot as plt
+
+    _, ax = plt.subplots(figsize=(6.4, 3.4), layout="constrained")
+    sigma = np.logspace(-3, 0.5, 200)
+    ax.loglog(sigma, 1 / sigma, color=palette("bone"), label="Newton: 1/σ")
+    ax.loglog(sigma, gain * sigma, ":", color=palette("axis"), lw=1.8, label=f"transpose: gσ, g = {gain:g}")
+    for k, (marker, line, color) in zip(dampings, LINES, strict=False):
+        ax.loglog(sigma, sigma / (sigma**2 + k**2), line, color=palette(color), lw=1.8, label=f"k = {k:g}")
+        ax.plot(k, 1 / (2 * k), marker, color=palette(color), ms=7)
+    ax.set(xlabel="singular value σ", ylabel="step for an error of 1", ylim=(1e-2, 1e3))
+    ax.grid(alpha=0.3)
+    ax.legend(frameon=False, fontsize=9)
+    plt.show()
+
+
+def planar_velocity(theta: ArrayLike, lengths: ArrayLike, v: ArrayLike) -> None:
+    """A planar 2R, its base frame B and tool frame E, and the velocity v (2,) of its tool, m/s along B."""
+    import matplotlib.pyplot as plt
+
+    _, ax = plt.subplots(figsize=(5.2, 3.9), layout="constrained")
+    angles = np.cumsum(theta)
+    links = np.array(lengths)[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])
+    joints = np.vstack([[0, 0], np.cumsum(links, axis=0)])
+    ax.plot(*joints.T, "-", color=palette("bone"), lw=5, alpha=0.35, solid_capstyle="round")
+    ax.plot(*joints[:-1].T, "o", color=palette("bone"), ms=8, mfc="w")
+    for name, place, turn in (("B", joints[0], 0.0), ("E", joints[-1], angles[-1])):
+        for letter, more in (("x", 0.0), ("y", np.pi / 2)):
+            end = place + 0.16 * np.array([np.cos(turn + more), np.sin(turn + more)])
+            _arrow(ax, place, end, palette(letter))
+            ax.annotate(f"${letter}_{name}$", end + 0.25 * (end - place), ha="center", va="center")
+    _arrow(ax, joints[-1], joints[-1] + np.asarray(v, float), palette("accent"))
+    ax.annotate("v", joints[-1] + 1.12 * np.asarray(v, float), color=palette("accent"), ha="center")
+    ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
+    ax.margins(0.2)
+    ax.grid(alpha=0.3)
     plt.show()
 
 
@@ -77,6 +118,12 @@ def _ellipsoid(ax, e, color):
     ax.plot_wireframe(*surface, color=color, alpha=0.35, linewidth=0.5, rstride=5, cstride=5)
     for axis, length, line in zip(e.axes.T, e.lengths, ("-", "--", ":"), strict=True):
         ax.plot(*np.outer(axis, [-length, length]), line, lw=2, color=palette("bone"))
+
+
+def _arrow(ax, start, end, color):
+    """From start to end; the limits of the axes grow with it."""
+    ax.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": color, "lw": 2, "shrinkA": 0})
+    ax.plot(*np.transpose([start, end]), alpha=0)
 
 
 def _box(ax, room, unit):

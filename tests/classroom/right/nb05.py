@@ -150,3 +150,81 @@ def tool_velocity__from_the_tool(theta, rate, lengths):
     v_E = np.array([a1 * np.sin(theta[1]) * rate[0], a1 * np.cos(theta[1]) * rate[0] + a2 * sum(rate)])
     c, s = np.cos(sum(theta)), np.sin(sum(theta))
     return np.array([[c, -s], [s, c]]) @ v_E, v_E
+
+
+def transform_rate__by_hat6(T_left, S, theta, T_right):
+    """All in one chain of four by four matrices, as the notebook writes it."""
+    H = lie.exp6(S * theta)
+    T = T_left @ H @ T_right
+    T_o = np.eye(4)
+    T_o[:3, :3] = T[:3, :3].T
+    T_dot = T_left @ H @ lie.hat6(S) @ T_right  # [S] and its exponential may change places
+    return T_dot, lie.vee6(T_dot @ T_o)
+
+
+def transform_rate__by_adjoint(T_left, S, theta, T_right):
+    """The column first: the screw carried to the base, its v moved to the tool; then T-dot from it."""
+    w, v = np.split(lie.adjoint(T_left) @ np.asarray(S, float), 2)
+    T = T_left @ lie.exp6(np.multiply(S, theta)) @ T_right
+    p = T[:3, 3]
+    return lie.hat6(np.concatenate([w, v])) @ T, [*w, *(v + np.cross(w, p))]
+
+
+def transform_rate__blocks(T_left, S, theta, T_right):
+    H = lie.exp6(S * float(theta))
+    H_dot = np.zeros((4, 4))
+    H_dot[:3, :3] = lie.hat3(S[:3]) @ H[:3, :3]
+    H_dot[:3, 3] = np.cross(S[:3], H[:3, 3]) + S[3:]
+    T_dot = np.linalg.multi_dot([T_left, H_dot, T_right])
+    R = np.linalg.multi_dot([T_left, H, T_right])[:3, :3]
+    W = np.einsum("ij,kj->ik", T_dot[:3, :3], R)
+    return T_dot, np.r_[(W[2, 1] - W[1, 2]) / 2, (W[0, 2] - W[2, 0]) / 2, (W[1, 0] - W[0, 1]) / 2, T_dot[:3, 3]]
+
+
+def torques__base_jacobian(J_b, T, moment, force):
+    """Turn the Jacobian instead of the force."""
+    R = T[:3, :3]
+    return (R @ J_b[:3]).T @ moment + (R @ J_b[3:]).T @ force
+
+
+def torques__joint_by_joint(J_b, T, moment, force):
+    answer = []
+    for column in np.transpose(J_b):
+        w, v = T[:3, :3] @ column[:3], T[:3, :3] @ column[3:]
+        answer.append(float(w @ moment + v @ force))
+    return answer
+
+
+def torques__by_adjoint(J_b, T, moment, force):
+    turn = np.eye(4)
+    turn[:3, :3] = T[:3, :3]
+    return np.concatenate([moment, force]) @ lie.adjoint(turn) @ J_b
+
+
+def dls_loop__array(robot, T_sd, theta, k, steps):
+    q = np.zeros((steps + 1, len(theta)))
+    q[0] = theta
+    for i in range(steps):
+        e = lie.log6(np.linalg.inv(robot.fk(q[i])) @ T_sd)
+        J = robot.jacobian_body(q[i])
+        q[i + 1] = q[i] + J.T @ np.linalg.inv(J @ J.T + k * k * np.eye(6)) @ e
+    return q
+
+
+def dls_loop__narrow(robot, T_sd, theta, k, steps):
+    """The other formula, which damping makes regular."""
+    rows = [np.array(theta, dtype=float)]
+    while len(rows) <= steps:
+        J, e = robot.jacobian_body(rows[-1]), lie.log6(lie.inverse(robot.fk(rows[-1])) @ T_sd)
+        rows.append(rows[-1] + np.linalg.solve(J.T @ J + k**2 * np.eye(len(theta)), J.T @ e))
+    return rows
+
+
+def dls_loop__recursive(robot, T_sd, theta, k, steps):
+    theta = np.asarray(theta, float)
+    if steps == 0:
+        return theta[None]
+    U, sigma, Vt = np.linalg.svd(robot.jacobian_body(theta), full_matrices=False)
+    e = lie.log6(lie.inverse(robot.fk(theta)) @ T_sd)
+    following = theta + Vt.T @ (sigma / (sigma**2 + k**2) * (U.T @ e))
+    return np.vstack([theta, dls_loop__recursive(robot, T_sd, following, k, steps - 1)])
