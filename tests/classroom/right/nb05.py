@@ -178,7 +178,9 @@ def transform_rate__blocks(T_left, S, theta, T_right):
     T_dot = np.linalg.multi_dot([T_left, H_dot, T_right])
     R = np.linalg.multi_dot([T_left, H, T_right])[:3, :3]
     W = np.einsum("ij,kj->ik", T_dot[:3, :3], R)
-    return T_dot, np.r_[(W[2, 1] - W[1, 2]) / 2, (W[0, 2] - W[2, 0]) / 2, (W[1, 0] - W[0, 1]) / 2, T_dot[:3, 3]]
+    return T_dot, np.r_[
+        (W[2, 1] - W[1, 2]) / 2, (W[0, 2] - W[2, 0]) / 2, (W[1, 0] - W[0, 1]) / 2, T_dot[:3, 3]
+    ]
 
 
 def torques__base_jacobian(J_b, T, moment, force):
