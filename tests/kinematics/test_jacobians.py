@@ -148,3 +148,23 @@ def test_what_is_refused():
     for method in METHODS:
         with pytest.raises(ValueError, match=r"KUKA KR6 R900 sixx has 6 joints: theta must have shape"):
             method(robot, np.zeros(5))
+
+
+def test_the_rate_of_a_transform_is_its_slope():
+    rng = np.random.default_rng(3)
+    left, right = lie.exp6(rng.normal(size=(2, 5, 6)))
+    S, theta, h = rng.normal(size=(5, 6)), rng.uniform(-2, 2, 5), 1e-5
+    T_dot, column = jacobians.transform_rate(left, S, theta, right)
+    ahead, behind = (left @ lie.exp6(S * t[:, None]) @ right for t in (theta + h, theta - h))
+    np.testing.assert_allclose(T_dot, (ahead - behind) / (2 * h), rtol=0, atol=1e-8)
+    turn = lie.log3(ahead[:, :3, :3] @ np.swapaxes(behind[:, :3, :3], 1, 2)) / (2 * h)
+    np.testing.assert_allclose(column, np.hstack([turn, T_dot[:, :3, 3]]), rtol=0, atol=1e-8)
+
+
+def test_columns_of_hinges_take_batches():
+    rng = np.random.default_rng(4)
+    w, o, p = rng.normal(size=(3, 4, 3)), rng.normal(size=(3, 4, 3)), rng.normal(size=(3, 3))
+    J = jacobians.of_hinges(w, o, p)
+    for k in range(3):
+        np.testing.assert_allclose(J[k, 3:].T, np.cross(w[k], p[k] - o[k]), rtol=0, atol=1e-14)
+        np.testing.assert_array_equal(J[k, :3].T, w[k])

@@ -24,7 +24,7 @@ QUESTIONS = [
     Question(
         name="recall_rank",
         draw=lambda rng: {
-            "values": str(rng.choice(["1.9, 1.2, 0.8, 0.3, 0.04, 2e-17", "1.7, 1.1, 0.6, 0.2, 3e-16, 8e-17"]))
+            "values": str(rng.choice(["1.9, 1.2, 0.8, 0.3, 0.04, 2e-14", "1.7, 1.1, 0.6, 0.2, 3e-13, 8e-14"]))
         },
         text="From notebook 04. The singular values of a 6 x 6 Jacobian are {values}. What is its rank?",
         answer=lambda values: 6 - values.count("e-"),

@@ -21,7 +21,7 @@ def differences(step: ArrayLike, central: ArrayLike, forward: ArrayLike) -> None
     """Largest error of two difference quotients over the step size, both axes logarithmic."""
     import matplotlib.pyplot as plt
 
-    _, ax = plt.subplots(figsize=(6.4, 3.6), layout="constrained")
+    _, ax = plt.subplots(figsize=(5.8, 3.3), layout="constrained")
     for error, name, (marker, line, color) in zip(
         (forward, central), ("forward", "central"), LINES, strict=False
     ):
@@ -37,7 +37,7 @@ def ellipsoids(robot: Robot, **thetas: ArrayLike) -> None:
     import matplotlib.pyplot as plt
 
     shape: dict = {"subplot_kw": {"projection": "3d"}, "squeeze": False, "layout": "constrained"}
-    _, axes = plt.subplots(2, len(thetas), figsize=(7.0, 6.6), **shape)
+    _, axes = plt.subplots(2, len(thetas), figsize=(6.0, 5.6), **shape)
     for row, (part, (color, unit)) in zip(axes, PARTS.items(), strict=True):
         found = {
             name: jacobians.ellipsoid(robot.jacobian_geometric(theta), part) for name, theta in thetas.items()
@@ -54,7 +54,7 @@ def steps(runs: Mapping[str, ArrayLike]) -> None:
     """How long each step of several runs is. runs: name -> configurations (m, n), the start first."""
     import matplotlib.pyplot as plt
 
-    _, ax = plt.subplots(figsize=(6.4, 3.6), layout="constrained")
+    _, ax = plt.subplots(figsize=(5.8, 3.3), layout="constrained")
     for (name, rows), (marker, line, color) in zip(runs.items(), LINES, strict=False):
         length = np.linalg.norm(np.diff(rows, axis=0), axis=1)
         count = np.arange(1, len(length) + 1)
@@ -70,7 +70,7 @@ def damping(dampings: Iterable[float], gain: float = 1.0) -> None:
     """What one step makes of an error of length 1 along a singular direction, over its sigma."""
     import matplotlib.pyplot as plt
 
-    _, ax = plt.subplots(figsize=(6.4, 3.4), layout="constrained")
+    _, ax = plt.subplots(figsize=(5.6, 3.0), layout="constrained")
     sigma = np.logspace(-3, 0.5, 200)
     ax.loglog(sigma, 1 / sigma, color=palette("bone"), label="Newton: 1/σ")
     ax.loglog(sigma, gain * sigma, ":", color=palette("axis"), lw=1.8, label=f"transpose: gσ, g = {gain:g}")
