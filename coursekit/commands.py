@@ -74,6 +74,12 @@ def _new(options: Namespace) -> None:
     print(new.new(options.folder))
 
 
+def _collect(options: Namespace) -> None:
+    from .classroom.grader import collect
+
+    print(collect.collect(options.source, options.out, options.roster, _course(options)))
+
+
 def _grade(options: Namespace) -> None:
     from .classroom.grader import grade
 
@@ -150,6 +156,15 @@ COMMANDS = {
             _argument("new", type=Path, nargs="?", help="the corrected release, a folder or a zip"),
             _argument("--folder", type=Path, help="yours, if it is not the one coursekit lies in"),
             _argument("--undo", action="store_true", help="bring back what the last update replaced"),
+        ),
+    ),
+    "collect": Command(
+        _collect,
+        "sort what Canvas, Moodle or nbgrader hands out into SUBMISSIONS/<student>/<notebook>.ipynb",
+        (
+            _argument("source", type=Path, help="the zip or the folder that was downloaded"),
+            _argument("out", type=Path, metavar="submissions", help="a folder that does not exist yet"),
+            _argument("--roster", type=Path, help="a CSV of id, name, email: folders are named by id"),
         ),
     ),
     "grade": Command(

@@ -1,4 +1,8 @@
-"""Who is in the class: roster.csv, with the columns id, name and email."""
+"""Who is in the class: roster.csv, with the columns id, name and email.
+
+Two more may be there: `aliases`, other names that a learning platform has for a student (between semicolons
+or bars), and `section`.
+"""
 
 from __future__ import annotations
 
@@ -17,6 +21,8 @@ class Student:
     id: str
     name: str = ""
     email: str = ""
+    aliases: tuple[str, ...] = ()
+    section: str = ""
 
 
 def read(path: Path) -> list[Student]:
@@ -50,7 +56,16 @@ def read(path: Path) -> list[Student]:
         if key in found:
             raise ValueError(f"{where}, id: {one['id']!r} is there already, in line {found[key]}")
         found[key] = rows.line_num
-        students.append(Student(**one))
+        aliases = (row.get("aliases") or "").replace("|", ";").split(";")
+        students.append(
+            Student(
+                one["id"],
+                one["name"],
+                one["email"],
+                tuple(alias.strip() for alias in aliases if alias.strip()),
+                (row.get("section") or "").strip(),
+            )
+        )
     if not students:
         raise ValueError(f"{path} names no student")
     return students

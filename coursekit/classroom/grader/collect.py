@@ -1,0 +1,249 @@
+"""`coursekit collect`: what a learning platform hands out becomes SUBMISSIONS/<student>/<notebook>.ipynb.
+
+Nothing is lost: every notebook and archive that finds no place is listed, with the reason, and so is every
+older attempt. What was found about a submission (where it came from, when, whether it was late) is kept in
+SUBMISSIONS/collected.csv, from which the grader takes the time.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import io
+import json
+import os
+import zipfile
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+from .. import roster
+from ..course import Course, the_course
+from ..document import mark_of
+from .cells import LARGEST
+from .naming import Register, Told, notebook_of, told
+from .submissions import ARCHIVES
+
+TABLE = "collected.csv"
+COLUMNS = ("student", "notebook", "submitted", "late", "canvas", "moodle", "from")
+DEEPEST = 4  # zips in zips
+LARGEST_ARCHIVE = 500_000_000  # bytes of a zip in a zip
+MOST = 200_000  # files
+
+
+@dataclass(frozen=True)
+class Found:
+    """A notebook somewhere in what was downloaded."""
+
+    parts: tuple[str, ...]
+    packed: bytes  # a class of a thousand is in memory at once
+    time: datetime
+
+    @property
+    def data(self) -> bytes:
+        """What is in the file."""
+        return zlib.decompress(self.packed)
+
+    @property
+    def place(self) -> str:
+        """Where it stands, for people."""
+        return "/".join(self.parts)
+
+
+def collect(source: Path, out: Path, roster_path: Path | None = None, course: Course | None = None) -> str:
+    """Sort a download (a zip or a folder) into `out`; what a person should know of it.
+
+    ValueError if there is nothing to read, `out` holds something already, or the roster does not fit.
+    """
+    course, source, out = course or the_course(), Path(source), Path(out)
+    if not source.exists():
+        raise ValueError(f"{source} does not exist: name the zip or the folder that was downloaded")
+    if out.exists() and any(out.iterdir()):
+        raise ValueError(f"{out} holds something already: name a new folder")
+    students = roster.read(roster_path) if roster_path else None
+    expected = [course.notebook(unit).name for unit in course.units if course.exercises(unit)]
+    problems: list[str] = []
+    chosen, older = _choose(source, Register(students), expected, problems)
+    if not chosen and not problems:
+        raise ValueError(f"{source} holds no notebook (.ipynb) and no zip")
+    _write(out, chosen)
+    missing = [one.id for one in students or () if one.id not in {student for student, _ in chosen}]
+    for student in missing:  # a row in grades.csv, too
+        (out / student).mkdir(parents=True)
+    return _summary(out, chosen, older, problems, missing)
+
+
+Chosen = dict[tuple[str, str], tuple[tuple, Found, Told]]
+
+
+def _choose(
+    source: Path, register: Register, expected: list[str], problems: list[str]
+) -> tuple[Chosen, list[str]]:
+    """({(student, notebook): its latest attempt}, older attempts); what finds no place goes to `problems`."""
+    chosen: Chosen = {}
+    older: list[str] = []
+    for found in _files(source, problems):
+        said = told(found.parts)
+        student, why = register.find((*said.who, *_owner(found.data)))
+        notebook = notebook_of(said.file, expected)
+        if notebook is None:
+            why = why or f"none of the course's notebooks is called {said.file}"
+        if why or notebook is None:
+            problems.append(f"{found.place}: {why}")
+            continue
+        name, copy = notebook
+        order = (said.attempt, said.time or found.time, copy)
+        best = chosen.get((student, name))
+        if best is None or order > best[0]:
+            chosen[student, name] = (order, found, said)
+        if best is not None:
+            kept = chosen[student, name][1]
+            loser = found if kept is best[1] else best[1]
+            older.append(f"{loser.place}: {kept.place} is later")
+    return chosen, older
+
+
+def _owner(data: bytes) -> tuple[str, ...]:
+    """Whom a release noted in the notebook: asked last, because students can write there."""
+    try:
+        whose = mark_of(json.loads(data.decode("utf-8-sig"))).get("student", "")
+    except (ValueError, AttributeError, RecursionError):
+        return ()
+    return (whose,) if isinstance(whose, str) else ()
+
+
+def _write(out: Path, chosen: Chosen) -> None:
+    out.mkdir(parents=True, exist_ok=True)
+    with open(out / TABLE, "w", newline="", encoding="utf-8-sig", errors="replace") as file:
+        table = csv.writer(file)
+        table.writerow(COLUMNS)
+        for (student, name), (_, found, said) in sorted(chosen.items(), key=lambda one: one[0]):
+            (out / student).mkdir(exist_ok=True)
+            (out / student / name).write_bytes(found.data)
+            time = said.time or found.time
+            with contextlib.suppress(OSError, OverflowError, ValueError):
+                os.utime(out / student / name, (time.timestamp(), time.timestamp()))
+            late = "late" if said.late else ""
+            row = [student, name, time.isoformat(" ", "seconds"), late, said.canvas, said.moodle, found.place]
+            table.writerow(row)
+
+
+def _summary(out: Path, chosen: Chosen, older: list[str], problems: list[str], missing: list[str]) -> str:
+    students = {student for student, _ in chosen}
+    lines = [f"{len(chosen)} notebooks of {len(students)} students: {out}"]
+    for title, rows in (
+        ("NOT COLLECTED, nobody has these", problems),
+        ("handed in nothing", missing),
+        ("older, left out", older),
+    ):
+        if rows:
+            lines += [f"{title} ({len(rows)}):", *(f"    {row}" for row in sorted(rows))]
+    return "\n".join(lines)
+
+
+# ---- files, in folders and in zips
+
+
+def _files(source: Path, problems: list[str]) -> Iterator[Found]:
+    """Every notebook; archives that cannot be read go to `problems`."""
+    if source.is_file():
+        if not zipfile.is_zipfile(source):
+            raise ValueError(f"{source} is no zip: name the zip, or the folder it was unpacked to")
+        yield from _shortened(list(_in_zip((), source.read_bytes(), problems)))
+    else:
+        yield from _shortened(list(_in_folder(source, problems)))
+
+
+def _shortened(found: list[Found]) -> list[Found]:
+    """Without the one folder that everything lies in, if folders follow."""
+    while found and all(len(one.parts) > 2 and one.parts[0] == found[0].parts[0] for one in found):
+        if len({one.parts[1] for one in found}) == 1 and len(found[0].parts) < 4:
+            break
+        found = [Found(one.parts[1:], one.packed, one.time) for one in found]
+    return found
+
+
+def _in_folder(folder: Path, problems: list[str]) -> Iterator[Found]:
+    for path in sorted(folder.rglob("*")):
+        parts = path.relative_to(folder).parts
+        if _is_nobodys(parts) or not _is_wanted(parts[-1]):
+            continue
+        place = "/".join(parts)
+        if path.is_symlink() or not path.is_file():
+            problems.append(f"{place}: a link or no file, not followed")
+        elif path.stat().st_size > (LARGEST_ARCHIVE if parts[-1].lower().endswith(".zip") else LARGEST):
+            problems.append(f"{place}: too large")
+        else:
+            time = datetime.fromtimestamp(path.stat().st_mtime)
+            yield from _one(parts, path.read_bytes(), time, problems)
+
+
+def _one(parts: tuple[str, ...], data: bytes, time: datetime, problems: list[str]) -> Iterator[Found]:
+    name = parts[-1].lower()
+    if name.endswith(".ipynb"):
+        yield Found(parts, zlib.compress(data, 1), time)
+    elif name.endswith(".zip") and sum(part.lower().endswith(".zip") for part in parts) <= DEEPEST:
+        yield from _in_zip(parts, data, problems)
+    else:
+        problems.append(f"{'/'.join(parts)}: no zip; unpack it into a folder of that name")
+
+
+def _in_zip(parts: tuple[str, ...], data: bytes, problems: list[str]) -> Iterator[Found]:
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            infos = archive.infolist()
+            if len(infos) > MOST:
+                raise ValueError(f"holds {len(infos)} files")
+            for info in infos:
+                inner = tuple(part for part in _name(info).split("/") if part not in ("", ".", ".."))
+                if info.is_dir() or not inner or _is_nobodys(inner) or not _is_wanted(inner[-1]):
+                    continue
+                limit = LARGEST_ARCHIVE if inner[-1].lower().endswith(".zip") else LARGEST
+                with archive.open(info) as file:
+                    content = file.read(limit + 1)
+                if len(content) > limit:
+                    problems.append(f"{'/'.join(parts + inner)}: too large")
+                    continue
+                yield from _one(parts + inner, content, _time(info), problems)
+    except (zipfile.BadZipFile, ValueError, RuntimeError, NotImplementedError, OSError, EOFError) as error:
+        problems.append(f"{'/'.join(parts) or 'the zip'}: cannot be read ({error})")
+    except Exception as error:  # zlib.error and the like: a damaged zip
+        problems.append(f"{'/'.join(parts) or 'the zip'}: damaged ({type(error).__name__}: {error})")
+
+
+def _name(info: zipfile.ZipInfo) -> str:
+    """Programs that do not say which letters they use mostly use UTF-8."""
+    if not info.flag_bits & 0x800:
+        with contextlib.suppress(UnicodeError):
+            return info.filename.encode("cp437").decode("utf-8").replace("\\", "/")
+    return info.filename.replace("\\", "/")
+
+
+def _time(info: zipfile.ZipInfo) -> datetime:
+    try:
+        return datetime(*info.date_time)
+    except ValueError:
+        return datetime(1980, 1, 1)
+
+
+def _is_wanted(name: str) -> bool:
+    return name.lower().endswith((".ipynb", *ARCHIVES)) and not name.startswith("._")
+
+
+def _is_nobodys(parts: tuple[str, ...]) -> bool:
+    """What JupyterLab and macOS leave beside people's work."""
+    return any(part in ("__MACOSX", ".ipynb_checkpoints", ".git", ".venv") for part in parts)
+
+
+def read_table(folder: Path) -> list[dict[str, str]]:
+    """The rows of SUBMISSIONS/collected.csv, [] if there is none; ValueError if it is damaged."""
+    path = folder / TABLE
+    if not path.exists():
+        return []
+    with open(path, newline="", encoding="utf-8-sig") as file:
+        rows = list(csv.DictReader(file))
+    if rows and not set(COLUMNS) <= rows[0].keys():
+        raise ValueError(f"{path}, line 1: the columns {', '.join(COLUMNS)} are expected")
+    return rows

@@ -1,0 +1,217 @@
+"""Downloads shaped as the learning platforms document their names, sorted into folders of students."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import zipfile
+
+import pytest
+
+from coursekit.classroom import roster
+from coursekit.classroom.course import the_course
+from coursekit.classroom.grader import collect, naming
+
+NAMES = [the_course().notebook(unit).name for unit in the_course().units]
+DH, MSB = NAMES[:2]
+ROSTER = """id,name,email,aliases
+s001,"Lee, Ann",ann.lee@uni.edu,
+s002,José Müller,jose@uni.edu,bitdiddle
+s003,Ann Marie Curie,curie@uni.edu,
+s004,Zoë Nobody,zoe@uni.edu,
+"""
+
+
+@pytest.fixture
+def people(tmp_path):
+    (tmp_path / "roster.csv").write_text(ROSTER, encoding="utf-8")
+    return tmp_path / "roster.csv"
+
+
+def notebook(text):
+    return f'{{"cells": [], "text": "{text}"}}'.encode()
+
+
+def tree(folder, files):
+    for number, (path, data) in enumerate(files.items()):
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_bytes(data)
+        os.utime(folder / path, (1_700_000_000 + number, 1_700_000_000 + number))
+    return folder
+
+
+def zipped(files):
+    data = io.BytesIO()
+    with zipfile.ZipFile(data, "w") as archive:
+        for path, content in files.items():
+            archive.writestr(path, content)
+    return data.getvalue()
+
+
+def collected(out):
+    return {path.relative_to(out).as_posix(): path.read_bytes() for path in out.rglob("*.ipynb")}
+
+
+CANVAS = {
+    f"leeann_4711_88001_{DH}": notebook("first"),
+    "leeann_4711_88093_01_dh_vs_poe-1.ipynb": notebook("second"),
+    "leeann_LATE_4711_88094_02_msb_derivation (1).ipynb": notebook("late"),
+    f"müllerjosé_4712_88002_{DH}": notebook("jose"),
+    "curieannmarie_4713_88003_homework.zip": zipped({f"homework/{DH}": notebook("zipped")}),
+    f"strangersome_4714_88004_{DH}": notebook("who?"),
+    "leeann_4711_88095_essay.ipynb": notebook("no notebook of ours"),
+}
+
+
+@pytest.mark.parametrize("form", ["folder", "zip"])
+def test_canvas(tmp_path, people, form):
+    source = tree(tmp_path / "in", CANVAS)
+    if form == "zip":
+        (tmp_path / "submissions.zip").write_bytes(zipped(CANVAS))
+        source = tmp_path / "submissions.zip"
+    said = collect.collect(source, tmp_path / "out", people)
+    assert collected(tmp_path / "out") == {
+        f"s001/{DH}": notebook("second"),
+        f"s001/{MSB}": notebook("late"),
+        f"s002/{DH}": notebook("jose"),
+        f"s003/{DH}": notebook("zipped"),
+    }
+    assert "4 notebooks of 3 students" in said
+    assert "NOT COLLECTED, nobody has these (2)" in said
+    assert "nobody in the roster is called strangersome or 4714" in said
+    assert "none of the course's notebooks is called essay.ipynb" in said
+    assert f"leeann_4711_88001_{DH}: leeann_4711_88093_01_dh_vs_poe-1.ipynb is later" in said
+    assert "handed in nothing (1):\n    s004" in said
+    table = collect.read_table(tmp_path / "out")
+    assert [(row["student"], row["canvas"], row["late"]) for row in table][:2] == [
+        ("s001", "4711", ""),
+        ("s001", "4711", "late"),
+    ]
+
+
+def test_an_underscore_in_a_name(tmp_path):
+    source = tree(tmp_path / "in", {"lee_ann_LATE_12345_67890_01_dh_vs_poe-1.ipynb": notebook("x")})
+    collect.collect(source, tmp_path / "out")
+    assert collected(tmp_path / "out") == {f"lee_ann/{DH}": notebook("x")}
+
+
+MOODLE = {
+    f"Ann Lee_123456_assignsubmission_file_/{DH}": notebook("ann"),
+    "José Müller_123457_assignsubmission_file_/work.zip": zipped(
+        {DH: notebook("jose"), f"__MACOSX/._{DH}": b"?", f".ipynb_checkpoints/{DH}": notebook("old")}
+    ),
+    f"Ann Marie Curie_123458_assignsubmission_file_{MSB}": notebook("flat"),
+}
+
+
+@pytest.mark.parametrize("inside", ["", "Robotics-Task 1-2041/"])
+def test_moodle(tmp_path, people, inside):
+    (tmp_path / "in.zip").write_bytes(zipped({inside + path: data for path, data in MOODLE.items()}))
+    said = collect.collect(tmp_path / "in.zip", tmp_path / "out", people)
+    assert collected(tmp_path / "out") == {
+        f"s001/{DH}": notebook("ann"),
+        f"s002/{DH}": notebook("jose"),
+        f"s003/{MSB}": notebook("flat"),
+    }
+    assert "NOT COLLECTED" not in said
+    assert {row["moodle"] for row in collect.read_table(tmp_path / "out")} == {"123456", "123457", "123458"}
+
+
+def test_nbgraders_exchange_takes_the_latest(tmp_path, people):
+    files = {
+        f"inbound/bitdiddle+robotics+2026-11-02 15:58:23.948203 UTC/{DH}": notebook("early"),
+        f"inbound/bitdiddle+robotics+2026-11-03 08:00:00.000000 UTC+3f2a/{DH}": notebook("late"),
+        f"inbound/s001+robotics+2026-11-01 10:00:00.000000 UTC/{DH}": notebook("ann"),
+    }
+    collect.collect(tree(tmp_path / "in", files), tmp_path / "out", people)
+    assert collected(tmp_path / "out") == {f"s001/{DH}": notebook("ann"), f"s002/{DH}": notebook("late")}
+    times = {row["student"]: row["submitted"] for row in collect.read_table(tmp_path / "out")}
+    assert times == {"s001": "2026-11-01 10:00:00", "s002": "2026-11-03 08:00:00"}
+
+
+@pytest.mark.parametrize("top", ["submitted/", ""])
+def test_nbgraders_own_folders_and_plain_ones(tmp_path, top):
+    files = {f"{top}ann/robotics/{DH}": notebook("a"), f"{top}bob/robotics/{DH}": notebook("b")}
+    collect.collect(tree(tmp_path / "in", files), tmp_path / "out")
+    assert collected(tmp_path / "out") == {f"ann/{DH}": notebook("a"), f"bob/{DH}": notebook("b")}
+
+
+def test_a_zip_of_each_student_and_what_the_site_writes(tmp_path, people):
+    """One zip a student, named by them; or a zip of another name with notebooks that know whose they are."""
+    own = b'{"cells": [], "metadata": {"coursekit": {"student": "s003"}}}'
+    files = {
+        "ann.lee.zip": zipped({f"notebooks/{DH}": notebook("ann"), "notebooks/student.json": b"{}"}),
+        "robot-kinematics-2026-11-26.zip": zipped({f"notebooks/{DH}": own}),
+    }
+    collect.collect(tree(tmp_path / "in", files), tmp_path / "out", people)
+    assert collected(tmp_path / "out") == {f"s001/{DH}": notebook("ann"), f"s003/{DH}": own}
+
+
+def test_what_cannot_be_read_is_listed_and_the_rest_is_collected(tmp_path):
+    deep = notebook("deep")
+    for _ in range(6):
+        deep = zipped({"more.zip": deep})
+    files = {
+        f"ann/{DH}": notebook("a"),
+        "bob/broken.zip": b"PK\x03\x04 no zip",
+        "cem/work.rar": b"Rar!",
+        "dan/deep.zip": deep,
+        f"eve/{MSB}.zip": zipped({MSB: b" " * 21_000_000}),
+    }
+    source = tree(tmp_path / "in", files)
+    (source / "fay").mkdir()
+    (source / "fay" / DH).symlink_to(source / "ann" / DH)
+    said = collect.collect(source, tmp_path / "out")
+    assert collected(tmp_path / "out") == {f"ann/{DH}": notebook("a")}
+    for text in ("broken.zip", "work.rar", "deep.zip", f"{MSB}: too large", f"fay/{DH}: a link"):
+        assert text in said
+
+
+def test_names_that_fit_two_students_are_nobodys(tmp_path):
+    (tmp_path / "roster.csv").write_text("id,name,email\ns1,Ann Lee,\ns2,Lee Ann,\n")
+    said = collect.collect(
+        tree(tmp_path / "in", {f"leeann_1_2_{DH}": notebook("?")}), tmp_path / "out", tmp_path / "roster.csv"
+    )
+    assert "leeann may be s1 or s2: give them aliases in the roster" in said
+
+
+@pytest.mark.parametrize(
+    ("file", "number"),
+    [
+        ("01_dh_vs_poe.ipynb", 0),
+        ("01_dh_vs_poe-1.ipynb", 1),
+        ("01_dh_vs_poe (3).ipynb", 3),
+        ("01_dh_vs_poe-Copy2.ipynb", 2),
+        ("01_DH_vs_PoE.IPYNB", 0),
+        ("01 dh vs poe - Copy.ipynb", 1),
+        ("ann_01_dh_vs_poe_final.ipynb", 0),
+        ("essay.ipynb", None),
+        ("notes-1.ipynb", None),
+    ],
+)
+def test_names_of_notebooks(file, number):
+    assert naming.notebook_of(file, NAMES) == (None if number is None else (DH, number))
+
+
+def test_bad_input_gets_a_sentence(tmp_path, people):
+    with pytest.raises(ValueError, match="does not exist: name the zip"):
+        collect.collect(tmp_path / "nothing", tmp_path / "out")
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(ValueError, match="holds no notebook"):
+        collect.collect(tmp_path / "empty", tmp_path / "out")
+    (tmp_path / "text.zip").write_text("text")
+    with pytest.raises(ValueError, match=r"text.zip is no zip"):
+        collect.collect(tmp_path / "text.zip", tmp_path / "out")
+    with pytest.raises(ValueError, match="holds something already"):
+        collect.collect(tmp_path / "text.zip", tmp_path)
+    people.write_text(ROSTER + "S001,Twice,t@uni.edu,\n", encoding="utf-8")
+    with pytest.raises(ValueError, match=r"roster.csv, line 6, id: 'S001' is there already, in line 2"):
+        roster.read(people)
+
+
+def test_the_table_says_where_everything_came_from(tmp_path, people):
+    collect.collect(tree(tmp_path / "in", CANVAS), tmp_path / "out", people)
+    with open(tmp_path / "out" / collect.TABLE, newline="", encoding="utf-8-sig") as file:
+        places = [row["from"] for row in csv.DictReader(file)]
+    assert "curieannmarie_4713_88003_homework.zip/homework/" + DH in places
