@@ -81,8 +81,11 @@ def _collect(options: Namespace) -> None:
 
 
 def _grade(options: Namespace) -> None:
+    from .classroom.author.verify import verify
     from .classroom.grader import grade
 
+    course = _course(options)
+    verify(course)
     summary = grade.grade_class(
         options.submissions,
         options.out,
@@ -90,7 +93,7 @@ def _grade(options: Namespace) -> None:
         seed=options.seed,
         box=not options.no_box,
         regrade=options.regrade,
-        course=_course(options),
+        course=course,
     )
     print(summary)
 

@@ -472,6 +472,20 @@ def test_a_notebook_newer_than_the_course_is_told_in_the_grades(in_class, folder
     assert record["notes"][0].startswith("the notebook is of version 7, newer than this course (1)")
 
 
+def test_points_that_changed_are_told_and_nothing_is_mixed(in_class, folder, tmp_path, capsys):
+    shutil.copytree(in_class / "s1" / "notebooks", tmp_path / "in" / "s1")
+    run = ["grade", "--course", str(folder), "--no-box", "--jobs", "1"]
+    run += [str(tmp_path / "in"), str(tmp_path / "grades")]
+    assert main(run) == 0
+    grades = (tmp_path / "grades" / "grades.csv").read_bytes()
+    toml(folder, **{"[weights]": "tip = 5\nreach = 1"})
+    assert main(run) == 2
+    error = capsys.readouterr().err
+    assert "points (tip counts 5, 2 before) changed since" in error and "--regrade" in error
+    assert (tmp_path / "grades" / "grades.csv").read_bytes() == grades
+    assert main([*run, "--regrade"]) == 0
+
+
 @pytest.mark.parametrize(
     ("text", "says"),
     [

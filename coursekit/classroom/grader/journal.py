@@ -48,6 +48,7 @@ class Journal:
     def _same_run(self, before: dict, now: dict) -> None:
         """What decides a grade may not change under grades that are there."""
         changed = [what for what in sorted({*before, *now}) if before.get(what) != now.get(what)]
+        changed = [what if what != "points" else _points(before, now) for what in changed]
         if changed:
             raise ValueError(
                 f"{self._path.parent} holds another run: {', '.join(changed)} changed since. "
@@ -120,6 +121,14 @@ class Journal:
         self._file.flush()
         os.fsync(self._file.fileno())
         return position
+
+
+def _points(before: dict, now: dict) -> str:
+    """ "points (tip counts 5, 2 before)": which of them are others now."""
+    old, new = before.get("points") or {}, now.get("points") or {}
+    names = [name for name in {**old, **new} if old.get(name) != new.get(name)]
+    told = (f"{name} counts {new.get(name, 0):g}, {old.get(name, 0):g} before" for name in names)
+    return f"points ({'; '.join(told)})"
 
 
 def seed_of(path: Path) -> int | None:
