@@ -98,6 +98,15 @@ def _grade(options: Namespace) -> None:
     print(summary)
 
 
+def _viva(options: Namespace) -> None:
+    from .classroom.grader.viva import viva
+
+    sheet, answers = viva(
+        options.student, options.submissions, options.out, _course(options), options.exercise, options.seed
+    )
+    print(f"wrote {sheet}, to lay on the table, and {answers}, for you alone")
+
+
 def _export(options: Namespace) -> None:
     from .classroom.author import nbgrader
 
@@ -186,6 +195,17 @@ COMMANDS = {
             ),
             _argument("--regrade", action="store_true", help="set the journal aside, grade everybody anew"),
             _argument("--no-box", action="store_true", help="run students' code without a sandbox"),
+        ),
+    ),
+    "viva": Command(
+        _viva,
+        "ten minutes with a student: one of their functions, three questions, answers on another page",
+        (
+            _argument("student", help="the name of a folder in SUBMISSIONS"),
+            _argument("submissions", type=Path),
+            _argument("out", type=Path, help="gets the two pages"),
+            _argument("--exercise", help="talk about this function; else one of theirs is drawn"),
+            _argument("--seed", type=int, default=0, help="another number, other questions"),
         ),
     ),
     "export": Command(
