@@ -194,7 +194,7 @@ def _rows(course: Course, one: Written, rng: np.random.Generator, case: str) -> 
 
 def _call(exercise: Exercise, arguments: list) -> str:
     pairs = zip(exercise.arguments, arguments, strict=False)
-    return f"<pre>{_text(chr(10).join(f'{name} = {_shown(value)}' for name, value in pairs))}</pre>"
+    return f"<pre>{_text(chr(10).join(f'{name} = {_shown(value, len(name) + 3)}' for name, value in pairs))}</pre>"
 
 
 def _values(exercise: Exercise, parts: list) -> str:
@@ -202,8 +202,8 @@ def _values(exercise: Exercise, parts: list) -> str:
     return f"<pre>{_text(chr(10).join(_shown(part) for part in parts) + unit)}</pre>"
 
 
-def _shown(value: object) -> str:
-    """Four digits of anything that is an argument or an answer."""
+def _shown(value: object, indent: int = 0) -> str:
+    """Four digits of anything that is an argument or an answer; further lines are indented."""
     if isinstance(value, dict) and len(value) == 1:
         ((what, name),) = value.items()
         return f"the {'robot' if what == 'robot' else 'forward kinematics of'} {name}"
@@ -215,7 +215,7 @@ def _shown(value: object) -> str:
         return str(value)
     if array.ndim == 0:
         return f"{float(array):.4g}"
-    return np.array2string(array, precision=4, suppress_small=True, threshold=60, max_line_width=90)
+    return np.array2string(array, precision=4, suppress_small=True, threshold=60, max_line_width=90, prefix=" " * indent)
 
 
 # ---- the pages
