@@ -194,7 +194,8 @@ def _rows(course: Course, one: Written, rng: np.random.Generator, case: str) -> 
 
 def _call(exercise: Exercise, arguments: list) -> str:
     pairs = zip(exercise.arguments, arguments, strict=False)
-    return f"<pre>{_text(chr(10).join(f'{name} = {_shown(value, len(name) + 3)}' for name, value in pairs))}</pre>"
+    lines = (f"{name} = {_shown(value, len(name) + 3)}" for name, value in pairs)
+    return f"<pre>{_text(chr(10).join(lines))}</pre>"
 
 
 def _values(exercise: Exercise, parts: list) -> str:
@@ -215,7 +216,9 @@ def _shown(value: object, indent: int = 0) -> str:
         return str(value)
     if array.ndim == 0:
         return f"{float(array):.4g}"
-    return np.array2string(array, precision=4, suppress_small=True, threshold=60, max_line_width=90, prefix=" " * indent)
+    return np.array2string(
+        array, precision=4, suppress_small=True, threshold=60, max_line_width=90, prefix=" " * indent
+    )
 
 
 # ---- the pages
