@@ -109,6 +109,10 @@ def test_the_ellipsoid_of_a_singular_pose_is_flat():
     assert flat.lengths[2] == 0
     assert flat.volume == flat.product == 0
     assert flat.isotropy == flat.condition == np.inf
+    for theta in np.random.default_rng(1).uniform(-3, 3, (20, 2)):  # turned, so that rounding has its say
+        T = lie.exp6([0.3, *theta, 0, 0, 0])
+        turned = lie.adjoint(T) @ robots.franka_panda().jacobian_body(np.zeros(7))
+        assert jacobians.ellipsoid(turned, "angular").lengths[2] == 0
 
 
 def test_the_ellipsoid_of_an_arm_that_moves_along_a_line():
@@ -118,6 +122,17 @@ def test_the_ellipsoid_of_an_arm_that_moves_along_a_line():
     assert found.lengths.tolist() == [2, 0, 0]
     assert np.abs(found.axes[:, 0]).tolist() == [1, 0, 0]
     assert jacobians.ellipsoid(J, "angular").lengths.tolist() == [0, 0, 0]
+
+
+def test_the_sign_of_a_singular_vector_is_fixed():
+    """Its largest component is positive, whatever the sign of what came in."""
+    A = np.random.default_rng(3).normal(size=(50, 6, 6))
+    U, sigma = jacobians.left_singular(A)
+    assert np.all(np.take_along_axis(U, np.abs(U).argmax(axis=-2, keepdims=True), axis=-2) > 0)
+    assert np.allclose(jacobians.left_singular(-A)[0], U)
+    assert np.allclose(
+        np.swapaxes(U, -1, -2) @ A @ np.swapaxes(A, -1, -2) @ U, sigma[:, None] ** 2 * np.eye(6)
+    )
 
 
 def test_nan_stays_where_it_is():
@@ -145,6 +160,11 @@ def test_what_is_refused():
         jacobians.by_differences(robot, np.zeros(6), step=0)
     with pytest.raises(ValueError, match="KUKA KR6 R900 sixx is not a planar arm: joint 2"):
         jacobians.planar(robot, np.zeros(6))
+    with pytest.raises(ValueError, match=r"^J must be an array of real numbers"):
+        jacobians.manipulability("J")
+    along_x = Robot.from_axes([[1, 0, 0]], [[0, 0, 0]], np.eye(4), name="along x")
+    with pytest.raises(ValueError, match="along x is not a planar arm: joint 1"):
+        jacobians.planar(along_x, [0.0])
     for method in METHODS:
         with pytest.raises(ValueError, match=r"KUKA KR6 R900 sixx has 6 joints: theta must have shape"):
             method(robot, np.zeros(5))

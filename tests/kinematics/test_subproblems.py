@@ -65,6 +65,18 @@ def test_two_touching_circles_and_none():
     assert np.isnan(subproblems.subproblem2(z, x, [0, 1, 0], [0, 2, 0])).all()
 
 
+@pytest.mark.parametrize("size", [1e-4, 1.0, 1e4])
+def test_equal_lengths_are_equal_at_every_size(size):
+    """A part in 1e10 is rounding, a part in 1e6 is another place, in metres as in millimetres."""
+    z, y_axis = np.array([0.0, 0, 1]), np.array([0.0, 1, 0])
+    x, y = size * np.array([1.0, 0, 2]), size * np.array([0.0, 1, 2])
+    for off, found in ((1e-10, True), (1e-6, False)):
+        assert np.isfinite(subproblems.subproblem1(z, x, y * (1 + off))) == found
+        higher = y + size * off * z  # as far from the axis, not as high
+        assert np.isfinite(subproblems.subproblem1(z, x, higher)) == found
+        assert np.isfinite(subproblems.subproblem2(z, y_axis, x, y * (1 + off))).all() == found
+
+
 def test_two_needs_two_axes():
     with pytest.raises(ValueError, match="subproblem 2 needs two different axes: k1 and k2 are parallel"):
         subproblems.subproblem2([0, 0, 1], [0, 0, -1], [1, 0, 0], [0, 1, 0])
@@ -124,6 +136,10 @@ def test_nan_in_nan_out():
         (
             lambda: subproblems.subproblem4([0, 0, 1], [1, 0, 0], [1, 0, 0], "far"),
             "d must be an array of real numbers",
+        ),
+        (
+            lambda: subproblems.subproblem3([0, 0, 1], [1, 0, 0], [1, 0, 0], "far"),
+            "^distance must be an array of real numbers",
         ),
     ],
 )
