@@ -17,6 +17,7 @@ from coursekit.classroom.exercises._axes import (
     screws_gap,
     turn,
 )
+from coursekit.classroom.exercises._nb01_tables import DH_TABLE, JOINT_TRANSFORM, RANGES_TO_DH
 
 # What the student's functions may call from coursekit.kinematics.
 ALLOW = (
@@ -208,6 +209,7 @@ EXERCISES = [
             Hint("transposed", "this is the transpose: the translation belongs in the last column"),
         ),
     ),
+    DH_TABLE,
     Exercise(
         "mdh_transform(a_prev, alpha_prev, d, theta)",
         look=looks.pose,
@@ -273,6 +275,7 @@ EXERCISES = [
             Hint("read_as_modified", "these are standard rows; you read them as modified ones"),
         ),
     ),
+    JOINT_TRANSFORM,
     Exercise(
         "screw_exp(S, theta)",
         look=looks.pose,
@@ -393,4 +396,5 @@ EXERCISES = [
             Hint("no_offset", "the table's own offsets belong to the frames at theta = 0"),
         ),
     ),
+    RANGES_TO_DH,
 ]

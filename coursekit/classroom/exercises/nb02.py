@@ -16,6 +16,7 @@ from coursekit.classroom.exercises._axes import (
     screws_gap,
     turn,
 )
+from coursekit.classroom.exercises._nb02_drawing import FROM_ANOTHER_FRAME, HOME_AND_SCREWS, JOINT_SCREW
 
 # What the student's functions may call from coursekit.kinematics: what notebook 01 had them write, too.
 ALLOW = (
@@ -293,6 +294,8 @@ EXERCISES = [
             ("a longer vector w along the same axis must give the same screw", _any_length_will_do),
         ),
     ),
+    JOINT_SCREW,
+    HOME_AND_SCREWS,
     Exercise(
         "axis_of(S)",
         look=looks.axis,
@@ -372,4 +375,5 @@ EXERCISES = [
             Hint("only_shifted", "M turns as well: w changes too where the tool frame is turned"),
         ),
     ),
+    FROM_ANOTHER_FRAME,
 ]

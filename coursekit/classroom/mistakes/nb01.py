@@ -6,7 +6,7 @@ from functools import reduce
 
 import numpy as np
 
-from coursekit.classroom.mistakes import Solved
+from coursekit.classroom.mistakes import Solved, _nb01_tables
 
 right = Solved("nb01")
 
@@ -291,4 +291,5 @@ WRONG = {
         "no_base": screws_without_base,
         "no_offset": screws_without_offset,
     },
+    **_nb01_tables.WRONG,
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from coursekit.classroom.mistakes import Solved
+from coursekit.classroom.mistakes import Solved, _nb02_drawing
 
 right = Solved("nb02")
 
@@ -150,4 +150,5 @@ WRONG = {
         "only_turned": body_only_turned,
         "only_shifted": body_only_shifted,
     },
+    **_nb02_drawing.WRONG,
 }
