@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from coursekit.kinematics import dh
 from coursekit.kinematics.robot import Robot
 from coursekit.view.figures import INK, axes_3d, limits_3d, palette
+from coursekit.view.figures.side import GREY, INTO, mark_axis, mark_frame, side_view
 
 CROWD = 0.1  # m: frames nearer to each other than this are fanned out
 
@@ -42,6 +43,70 @@ def half_steps(a: float = 0.5, alpha: float = 0.9, d: float = 0.4, theta: float 
     ax.view_init(20, -18)
     _name(ax, [np.eye(4), first, last], ["i−1", "i′", "i"], 0.2)
     _show()
+
+
+def common_normals() -> None:
+    """The KR6 from its side, frames 0 to 4 of its table: at zero, and with joint 3 turned by 90 degrees.
+
+    A sketch, not to scale: 25 and 35 mm are drawn longer, so that frames stand apart.
+    """
+    import matplotlib.pyplot as plt
+
+    _, axes = plt.subplots(1, 2, figsize=(9.8, 5.0), layout="constrained", sharey=True)
+    s, top, two, three = (0, 0), (0, 300), (140, 300), (440, 300)
+    up, down, forward = (0, 1), (0, -1), (1, 0)
+    at_zero = (440, 430), (740, 430), (810, 430), up, (-1, 0)
+    turned = (570, 300), (570, 0), (570, -70), forward, up
+    for ax, title, (corner, wrist, tool, x, z) in (
+        (axes[0], "at zero: x₃ stands upright", at_zero),
+        (axes[1], "joint 3 turned by 90 deg: every x leads forward", turned),
+    ):
+        ax.plot(*np.array([s, top, two, three, corner, wrist, tool]).T, color=GREY, lw=7)
+        behind = 1.45 * np.array(corner) - 0.45 * np.array(wrist)
+        for line in (((0, -50), (0, 430)), (behind, 1.3 * np.array(wrist) - 0.3 * np.array(corner))):
+            ax.plot(*np.array(line).T, ls=(0, (6, 3)), lw=1, color=palette("axis"))
+        for name, start, end in (("a₁ = 25", top, two), ("a₂ = 455", two, three), ("a₃ = 35", three, corner)):
+            ax.plot(*np.array([start, end]).T, color=palette("accent"), lw=2.6)
+            beside = (
+                {"xytext": (-6, 0), "ha": "right"}
+                if start[0] == end[0]
+                else {"xytext": (0, 9), "ha": "center"}
+            )
+            ax.annotate(
+                name, np.mean([start, end], axis=0), textcoords="offset points", fontsize=10, **beside
+            )
+        ax.annotate("d₁ = −400", (0, 150), (6, 0), textcoords="offset points", fontsize=10)
+        beside = {"xytext": (0, 8), "ha": "center"} if x == up else {"xytext": (6, 0)}
+        middle = np.mean([corner, wrist], axis=0)
+        ax.annotate("d₄ = −420", middle, textcoords="offset points", fontsize=10, **beside)
+        for number, place in (("axis 2", two), ("axis 3", three), ("axis 5", wrist)):
+            mark_axis(ax, number, place, INTO)
+        mark_frame(ax, "0", s, [("x₀", forward), ("z₀", down)], beside=(-24, -4))
+        mark_frame(ax, "1", two, [("x₁", forward)], beside=(-8, 14))
+        mark_frame(ax, "2", three, [("x₂", forward)], beside=(-8, -32))
+        mark_frame(ax, "3", corner, [("x₃", x), ("z₃", z)], beside=(10, 8))
+        mark_frame(ax, "4", wrist, [("x₄", x)], beside=(-8, -32))
+        ax.set(title=title, xlim=(-90, 900), ylim=(-160, 600), aspect="equal", xticks=[], yticks=[])
+    plt.show()
+
+
+def exam_drawing() -> None:
+    """The Kawasaki S030 in its drawn pose: five lengths, axes without a sense, frames 0 and 6."""
+    import matplotlib.pyplot as plt
+
+    _, ax = plt.subplots(figsize=(7.8, 6.2), layout="constrained")
+    corners = [(0, 0), (0, 680), (150, 680), (150, 1550), (1230, 1550), (1395, 1550)]
+    side_view(ax, corners, ["h = 680", "o = 150", "u = 870", "f = 1080", "t = 165"], margin=110, room=260)
+    for name, ends in (("1", [(0, -120), (0, 860)]), ("4, 6", [(-20, 1550), (1620, 1550)])):
+        ax.plot(*np.array(ends).T, ls=(0, (6, 3)), lw=1.2, color=palette("axis"))
+        ax.annotate(name, ends[1], (4, 6), textcoords="offset points", color=palette("axis"))
+    for name, place in (("2", (150, 680)), ("3", (150, 1550)), ("5", (1230, 1550))):
+        ax.plot(*place, "o", ms=13, mfc="white", mec=palette("axis"), mew=2, zorder=4)
+        ax.annotate(name, place, (9, -18), textcoords="offset points", color=palette("axis"))
+    mark_frame(ax, "0", (0, 0), [("x₀", (1, 0)), ("z₀", (0, 1))], length=170)
+    mark_frame(ax, "6", (1395, 1550), [("z₆", (1, 0))], length=170)
+    ax.set(xlabel="x [mm]", ylabel="z [mm]")
+    plt.show()
 
 
 def placements(robot: Robot, fan: ArrayLike = (0.0, 0.0, 0.32)) -> None:

@@ -1,46 +1,68 @@
 """Pictures of notebook 02: the drawing that M and S are read from, and the axes in space."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
 from coursekit.view.figures import INK, palette
+from coursekit.view.figures.side import INTO, OUT_OF, draw_arm, mark_axis, mark_frame, side_view
 
 
-def drawing() -> None:
-    """Side view of the KR6 at zero with its lengths in mm: y points into the page."""
+def drawing(robot: Robot) -> None:
+    """Side view of an arm like the KR6 at zero with its lengths in mm."""
     import matplotlib.pyplot as plt
 
-    _, ax = plt.subplots(figsize=(8.2, 4.0), layout="constrained")
-    arm = np.array([(0, 0), (0, 400), (25, 400), (480, 400), (480, 435), (900, 435), (980, 435)])
-    ax.plot(*arm.T, color=INK, lw=5, solid_capstyle="round", alpha=0.25)
-    for number, x, z in ((2, 25, 400), (3, 480, 400), (5, 900, 435)):  # axes into the page
-        ax.plot(x, z, "o", ms=13, mfc="white", mec=palette("axis"), mew=2)
-        ax.plot(x, z, "x", ms=6, color=palette("axis"), mew=2)
-        ax.annotate(f"{number}", (x, z), (9, -18), textcoords="offset points", color=palette("axis"))
-    for number, start, end in (
-        (1, (0, 330), (0, 210)),
-        (4, (760, 435), (640, 435)),
-        (6, (1190, 435), (1090, 435)),
-    ):
-        ax.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": palette("axis"), "lw": 2})
-        middle = np.mean([start, end], axis=0)
-        ax.annotate(f"{number}", middle, (6, 7), textcoords="offset points", color=palette("axis"))
-    _dimension(ax, (-70, 0), (-70, 400), "400")
-    _dimension(ax, (0, 520), (25, 520), "25")
-    _dimension(ax, (25, 520), (480, 520), "455")
-    _dimension(ax, (480, 520), (900, 520), "420")
-    _dimension(ax, (900, 520), (980, 520), "80")
-    _dimension(ax, (420, 400), (420, 435), "35")
-    for origin, letter in (((0, 0), "s"), ((980, 435), "b")):
-        for step, axis, name in (((75, 0), "x", "x"), ((0, 75), "z", "z")):
-            tip = (origin[0] + step[0], origin[1] + step[1])
-            ax.annotate("", tip, origin, arrowprops={"arrowstyle": "-|>", "color": palette(axis), "lw": 2})
-            ax.annotate(name, tip, (3, 3), textcoords="offset points", color=palette(axis))
-        ax.annotate(f"{{{letter}}}", origin, (-4, -16), textcoords="offset points", color=INK)
-    ax.set(xlabel="x [mm]", ylabel="z [mm]", xlim=(-150, 1230), ylim=(-60, 580), aspect="equal")
-    ax.grid(alpha=0.25)
+    _, ax = plt.subplots(figsize=(8.2, 4.4), layout="constrained")
+    draw_arm(ax, robot)
+    plt.show()
+
+
+def steps(directions: Sequence[str], P_mm: ArrayLike) -> None:
+    """The IRB 1200 at zero: direction h_i of each joint and the steps P_{i-1,i} from one to the next.
+
+    directions: a letter per joint, "z", "y", ...; P_mm (n + 1, 3), the last step leads to the tool.
+    """
+    import matplotlib.pyplot as plt
+
+    _, ax = plt.subplots(figsize=(7.4, 5.4), layout="constrained")
+    corners = [(0, 0), *np.asarray(P_mm, dtype=float).cumsum(axis=0)[:, [0, 2]]]
+    flat = np.array([p for p in corners for _ in (0, 1)])[1:-1]
+    ax.plot(*flat.T, color=INK, lw=5, alpha=0.15)
+    for i, (start, end) in enumerate(pairwise(corners)):
+        if np.linalg.norm(np.subtract(end, start)) > 1:
+            style = {"arrowstyle": "-|>", "color": palette("trace"), "lw": 2.2}
+            ax.annotate("", end, start, arrowprops=style)
+            name = f"$P_{{{i},{i + 1}}}$" if i < len(directions) else "$P_{6T}$"
+            ax.annotate(
+                name, np.mean([start, end], axis=0), (-8, -18), textcoords="offset points", fontsize=11
+            )
+    _directions(ax, directions, np.array(corners[1:-1]))
+    mark_frame(ax, "T", corners[-1], [("x", (1, 0)), ("z", (0, 1))])
+    mark_frame(ax, "s", corners[0], [("x", (1, 0)), ("z", (0, 1))])
+    ax.set(xlabel="x [mm]", ylabel="z [mm]", xlim=(-170, 760), ylim=(-90, 1110), aspect="equal")
+    ax.grid(alpha=0.2)
+    plt.show()
+
+
+def telescope(lengths_mm: Sequence[float] = (150, 600, 120, 700, 200)) -> None:
+    """The arm with a slide whose M and S are to be read: its lengths A to E, five axes, both frames."""
+    import matplotlib.pyplot as plt
+
+    A, B, C, D, E = lengths_mm
+    _, ax = plt.subplots(figsize=(8.2, 5.2), layout="constrained")
+    corners = [(0, 0), (0, B), (A, B), (A, B + C), (A + D, B + C), (A + D, B + C - E)]
+    side_view(ax, corners, [f"{name} = {x:g}" for name, x in zip("BACDE", (B, A, C, D, E), strict=True)])
+    mark_axis(ax, "1", (0, 0.45 * B), (0, 1))
+    mark_axis(ax, "2", (A, B), OUT_OF)
+    mark_axis(ax, "3 slides", (A + 0.2 * D, B + C), (1, 0), slides=True)
+    mark_axis(ax, "4", (A + 0.65 * D, B + C), (1, 0))
+    mark_axis(ax, "5", (A + D, B + C), INTO)
+    mark_frame(ax, "s", (0, 0), [("x", (1, 0)), ("z", (0, 1))])
+    mark_frame(ax, "b", corners[-1], [("x", (1, 0)), ("z", (0, -1))])
+    ax.set(xlabel="x [mm]", ylabel="z [mm]")
     plt.show()
 
 
@@ -74,13 +96,13 @@ def axes_in_space(
     plt.show()
 
 
-def _dimension(ax, start, end, label):
-    """A measured length between two points, in mm."""
-    ax.annotate(
-        "", end, start, arrowprops={"arrowstyle": "|-|,widthA=0.25,widthB=0.25", "color": INK, "lw": 1}
-    )
-    upright = start[0] == end[0]
-    place = {"ha": "right", "va": "center"} if upright else {"ha": "center", "va": "bottom"}
-    offset = (-5, 0) if upright else (0, 4)
-    middle = np.mean([start, end], axis=0)
-    ax.annotate(label, middle, offset, textcoords="offset points", fontsize=9, color=INK, **place)
+def _directions(ax, letters, points):
+    """An arrow or a crossed circle for each joint; arrows of one place stand above it, on a dotted line."""
+    for i, (letter, point) in enumerate(zip(letters, points, strict=True)):
+        if letter == "y":
+            mark_axis(ax, f"$h_{i + 1}$", point, INTO)
+            continue
+        way = np.array({"x": (1, 0), "z": (0, 1)}[letter])
+        above = np.array([0, 110 + 35 * (i - 3)]) if letter == "x" else np.array([-45, 0])
+        ax.plot(*np.array([point, point + above]).T, ls=":", lw=1, color=palette("axis"))
+        mark_axis(ax, f"$h_{i + 1}$", point + above, way)
