@@ -76,13 +76,13 @@ def common_normals() -> None:
                 name, np.mean([start, end], axis=0), textcoords="offset points", fontsize=10, **beside
             )
         ax.annotate("d₁ = −400", (0, 150), (6, 0), textcoords="offset points", fontsize=10)
-        beside = {"xytext": (0, 8), "ha": "center"} if x == up else {"xytext": (6, 0)}
+        beside = {"xytext": (18, 8), "ha": "center"} if x == up else {"xytext": (6, 0)}
         middle = np.mean([corner, wrist], axis=0)
         ax.annotate("d₄ = −420", middle, textcoords="offset points", fontsize=10, **beside)
         for number, place in (("axis 2", two), ("axis 3", three), ("axis 5", wrist)):
             mark_axis(ax, number, place, INTO)
         mark_frame(ax, "0", s, [("x₀", forward), ("z₀", down)], beside=(-24, -4))
-        mark_frame(ax, "1", two, [("x₁", forward)], beside=(-8, 14))
+        mark_frame(ax, "1", two, [("x₁", forward)], beside=(-8, -32))
         mark_frame(ax, "2", three, [("x₂", forward)], beside=(-8, -32))
         mark_frame(ax, "3", corner, [("x₃", x), ("z₃", z)], beside=(10, 8))
         mark_frame(ax, "4", wrist, [("x₄", x)], beside=(-8, -32))

@@ -36,9 +36,9 @@ def steps(directions: Sequence[str], P_mm: ArrayLike) -> None:
             style = {"arrowstyle": "-|>", "color": palette("trace"), "lw": 2.2}
             ax.annotate("", end, start, arrowprops=style)
             name = f"$P_{{{i},{i + 1}}}$" if i < len(directions) else "$P_{6T}$"
-            ax.annotate(
-                name, np.mean([start, end], axis=0), (-8, -18), textcoords="offset points", fontsize=11
-            )
+            beside = (-40, -4) if start[0] == end[0] else (-14, -36 if i == len(directions) else -18)
+            middle = np.mean([start, end], axis=0)
+            ax.annotate(name, middle, beside, textcoords="offset points", fontsize=11)
     _directions(ax, directions, np.array(corners[1:-1]))
     mark_frame(ax, "T", corners[-1], [("x", (1, 0)), ("z", (0, 1))])
     mark_frame(ax, "s", corners[0], [("x", (1, 0)), ("z", (0, 1))])

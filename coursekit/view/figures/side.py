@@ -92,7 +92,7 @@ def mark_frame(
     length: float = 80.0,
     beside: tuple[float, float] = (-5, -16),
 ) -> None:
-    """A frame: its axes in the page as (name, direction), lettered; `beside`: where its name stands, points."""
+    """A frame: its axes in the page as (name, direction), lettered; its name stands `beside` it, points."""
     at = np.asarray(at, dtype=float)
     for name, way in axes:
         tip = at + length * np.asarray(way, dtype=float)
