@@ -175,3 +175,71 @@ def screws_from_dh__brackets(rows, base):
         frames.append(frames[-1] @ right.mdh_transform(a, alpha, d, offset))
     X = np.array([T @ A @ np.linalg.inv(T) for T in frames[1:]])
     return np.array([X[:, 2, 1], X[:, 0, 2], X[:, 1, 0], X[:, 0, 3], X[:, 1, 3], X[:, 2, 3]])
+
+
+# ---- tables: making one, joints of both kinds, ranges
+
+
+def dh_table__other_elbow(lengths):
+    """z_3 points back along the forearm: d_4 is negative, and the wrist turns the other way."""
+    height, offset, upper, forearm, flange = lengths
+    q = math.pi / 2
+    return [
+        [offset, q, height, 0],
+        [upper, 0, 0, q],
+        [0, q, 0, math.pi],
+        [0, q, -forearm, 0],
+        [0, q, 0, 0],
+        [0, 0, flange, 0],
+    ]
+
+
+def dh_table__wrist_forward(lengths):
+    """x_4 up, x_5 down; x_6 in any direction."""
+    h, o, u, f, t = lengths
+    rows = np.zeros((6, 4))
+    rows[:, 0] = o, u, 0, 0, 0, 0
+    rows[:, 1] = np.array([1, 0, 1, 1, 1, 0]) * np.pi / 2
+    rows[:, 2] = h, 0, 0, f, 0, t
+    rows[:, 3] = 0, np.pi / 2, 0, 0, np.pi, 0.3
+    return rows
+
+
+def dh_table__columns(lengths):
+    h, o, u, f, t = lengths
+    a, d = [o, u, 0, 0, 0, 0], [h, 0, 0, f, 0, t]
+    alpha, theta = np.radians([90, 0, 90, 90, 90, 0]), np.radians([0, 90, 0, 180, -180, 90])
+    return np.column_stack([a, alpha, d, theta])
+
+
+def joint_transform__added(row, q, kind):
+    step = [0, 0, q, 0] if kind == "prismatic" else [0, 0, 0, q]
+    return right.dh_transform(*(x + y for x, y in zip(row, step, strict=True)))
+
+
+def joint_transform__half_steps(row, q, kind):
+    slides = kind == "prismatic"
+    return _step(2, row[3] + q * (not slides), row[2] + q * slides) @ _step(0, row[1], row[0])
+
+
+def joint_transform__moved_first(row, q, kind):
+    """The joint moves about or along the old z, before the row as it is at zero."""
+    first = _step(2, 0, q) if kind.startswith("p") else _step(2, q, 0)
+    return first @ right.dh_transform(*row)
+
+
+def ranges_to_dh__loop(limits, sense, at_zero):
+    rows = []
+    for (low, high), s, zero in zip(limits, sense, at_zero, strict=True):
+        rows.append((zero + low, zero + high) if s > 0 else (zero - high, zero - low))
+    return rows
+
+
+def ranges_to_dh__where(limits, sense, at_zero):
+    turned = np.where(sense[:, None] > 0, limits, -limits[:, ::-1])
+    return turned + at_zero[:, None]
+
+
+def ranges_to_dh__lists(limits, sense, at_zero):
+    ends = [[z + s * x for x in pair] for pair, s, z in zip(limits, sense, at_zero, strict=True)]
+    return [[min(pair), max(pair)] for pair in ends]
