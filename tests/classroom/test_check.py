@@ -133,6 +133,12 @@ def test_any_solution_is_right_and_so_is_a_set_in_any_order():
     assert verdict("ik_all", lambda *a: RIGHT.ik_all(*a)[[0, 0]]).kind == "placed"
 
 
+def test_where_many_answers_are_right_entries_of_one_of_them_are_not_held_up():
+    found = verdict("ik", lambda *a: RIGHT.ik_all(*a)[0] + [0, 0.3 * a[1]])
+    assert "entry" not in found.say
+    assert found.say == "your joint angles do not reach the point"
+
+
 # ---- 4: what was done to the right answer
 
 

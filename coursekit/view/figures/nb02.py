@@ -10,6 +10,8 @@ from coursekit.kinematics.robot import Robot
 from coursekit.view.figures import INK, palette
 from coursekit.view.figures.side import INTO, OUT_OF, draw_arm, mark_axis, mark_frame, side_view
 
+TELESCOPE = (150, 600, 120, 700, 200)  # mm: A to E
+
 
 def drawing(robot: Robot) -> None:
     """Side view of an arm like the KR6 at zero with its lengths in mm."""
@@ -47,7 +49,21 @@ def steps(directions: Sequence[str], P_mm: ArrayLike) -> None:
     plt.show()
 
 
-def telescope(lengths_mm: Sequence[float] = (150, 600, 120, 700, 200)) -> None:
+def telescope_arm(lengths_mm: Sequence[float] = TELESCOPE) -> Robot:
+    """The arm of the drawing `telescope`: two hinges, a slide, two hinges; A to E in mm.
+
+    >>> telescope_arm().joint_types[2]
+    'prismatic'
+    """
+    A, B, C, D, E = np.asarray(lengths_mm) / 1000
+    M = np.diag([1.0, -1, -1, 1])
+    M[:3, 3] = A + D, 0, B + C - E
+    points = [(0, 0, 0), (A, 0, B), (A, 0, B + C), (A + D, 0, B + C), (A + D, 0, B + C)]
+    axes = [(0, 0, 1), (0, -1, 0), (1, 0, 0), (1, 0, 0), (0, 1, 0)]
+    return Robot.from_axes(axes, points, M, joint_types="RRPRR", name="telescope")
+
+
+def telescope(lengths_mm: Sequence[float] = TELESCOPE) -> None:
     """The arm with a slide whose M and S are to be read: its lengths A to E, five axes, both frames."""
     import matplotlib.pyplot as plt
 

@@ -120,3 +120,85 @@ def body_screws__one_by_one(S, M):
     for i in range(S.shape[1]):
         B[:, i] = right.adjoint(inverse) @ S[:, i]
     return B
+
+
+# ---- joints of both kinds, a whole arm, another space frame
+
+
+def joint_screw__lists(kind, w, q):
+    size = math.sqrt(sum(x * x for x in w))
+    x, y, z = (value / size for value in w)
+    if kind == "prismatic":
+        return [0, 0, 0, x, y, z]
+    return [x, y, z, q[1] * z - q[2] * y, q[2] * x - q[0] * z, q[0] * y - q[1] * x]
+
+
+def joint_screw__by_letter(kind, w, q):
+    unit = np.array(w, float) / np.linalg.norm(w)
+    turns = kind[0] == "r"
+    return np.hstack([turns * unit, turns * np.cross(q, unit) + (not turns) * unit])
+
+
+def joint_screw__filled(kind, w, q):
+    S, w = np.zeros(6), w / (w @ w) ** 0.5
+    if kind == "revolute":
+        S[:3], S[3:] = w, np.cross(q, w)
+    else:
+        S[3:] = w
+    return S
+
+
+def home_and_screws__columns(lengths):
+    A, B, C, D, E = lengths
+    H = B + C
+    M = [[1, 0, 0, A + D], [0, -1, 0, 0], [0, 0, -1, H - E], [0, 0, 0, 1]]
+    S = [
+        [0, 0, 1, 0, 0, 0],
+        [0, -1, 0, B, 0, -A],
+        [0, 0, 0, 1, 0, 0],
+        [1, 0, 0, 0, H, 0],
+        [0, 1, 0, -H, 0, A + D],
+    ]
+    return np.array(M), np.array(S).T
+
+
+def home_and_screws__other_points(lengths):
+    A, B, C, D, E = lengths
+    up, back, out = np.eye(3)[2], np.array([0, -1, 0]), np.array([1, 0, 0])
+    hinges = [(up, [0, 0, -1]), (back, [A, 2, B]), (out, [9, 0, B + C]), (-back, [A + D, -3, B + C])]
+    S = [np.concatenate([w, -np.cross(w, q)]) for w, q in hinges]
+    S.insert(2, np.concatenate([np.zeros(3), out]))
+    M = np.eye(4)
+    M[1, 1] = M[2, 2] = -1
+    M[:3, 3] = out * (A + D) + up * (B + C - E)
+    return M, np.column_stack(S)
+
+
+def home_and_screws__steps(lengths):
+    A, B, C, D, E = lengths
+    turn = np.diag([1, -1, -1, 1])
+    M = _shift(0, 0, B) @ _shift(A, 0, C) @ _shift(D, 0, 0) @ turn @ _shift(0, 0, E)
+    x, y, z, o = *np.eye(3), np.zeros(3)
+    w = np.array([z, -y, o, x, y])
+    q = np.array([o, [A, 0, B], o, [0, 0, B + C], [A + D, 0, B + C]])
+    v = np.cross(q, w)
+    v[2] = x
+    return M, np.vstack([w.T, v.T])
+
+
+def from_another_frame__inline(S, M, T):
+    R, p = T[:3, :3], T[:3, 3]
+    w = R @ S[:3]
+    return np.vstack([w, R @ S[3:] + np.cross(p, w, axisb=0).T]), T.dot(M)
+
+
+def from_another_frame__one_by_one(S, M, T):
+    moved = np.zeros(S.shape)
+    for k, column in enumerate(S.T):
+        moved[:, k] = right.adjoint(T) @ column
+    return moved, np.einsum("ij,jk->ik", T, M)
+
+
+def from_another_frame__solved(S, M, T):
+    back = np.linalg.inv(T)
+    return np.linalg.solve(right.adjoint(back), S), np.linalg.solve(back, M)
