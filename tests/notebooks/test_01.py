@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from coursekit import dh, lie, robots
+from coursekit import dh, robots
 from coursekit.classroom.author import notebook
 from tests.kinematics.conftest import load
 
@@ -83,9 +83,9 @@ def test_the_three_matrices_of_figure_3_6(key):
 def test_the_stored_matrices_are_those_of_figure_3_6():
     stored = printed("figure-3-6").split("theta =")[1:]
     for block, key in zip(stored, ("eq3.8", "eq3.9", "eq3.10"), strict=True):
-        lines = block.splitlines()[1:5]
+        said, *lines = block.splitlines()[1:6]
         np.testing.assert_allclose([numbers(line) for line in lines], REPORT["FK"][key], atol=5.1e-4)
-        assert "below 2e-15" in block
+        assert said == "fk_dh: yours and the course's agree."
 
 
 def test_frames_of_the_kr6():
@@ -99,7 +99,7 @@ def test_screws_from_the_table_are_eq_3_5():
     S, M = robots.kuka_kr6().modified_dh.screws()
     np.testing.assert_allclose(np.vstack([S[:3], 1000 * S[3:]]), REPORT["S"], rtol=0, atol=1e-12)
     np.testing.assert_allclose(in_mm(M), REPORT["M_flange"], rtol=0, atol=1e-12)
-    lines = printed("screws-of-table").splitlines()[1:7]
+    lines = printed("screws-of-table").splitlines()[2:8]
     np.testing.assert_array_equal([numbers(line) for line in lines], REPORT["S"])
 
 
@@ -123,40 +123,44 @@ def test_nearly_parallel_axes():
 
 
 def test_m_passes_one_exponential_after_the_other():
-    lines = printed("identity-steps").splitlines()
-    assert len(lines) == 7
-    assert all("below 2e-15" in line for line in lines)
+    assert "differences all below 4e-15" in printed("identity-steps")
 
 
 def test_three_arms_agree():
     lines = printed("agreement").splitlines()[2:]
-    assert [line.count("below 2e-15") for line in lines] == [3, 3, 3]
+    assert [line.count("below 4e-15") for line in lines] == [1, 1, 1]
 
 
-def test_the_abb_by_its_three_tables(run):
-    namespace = run("abb-tables", abb=robots.abb_irb1200(), rows_mm=run("table-shift")["rows_mm"])
-    theta = np.random.default_rng(3).uniform(-np.pi, np.pi, (50, 6))
-    T = robots.abb_irb1200().fk(theta)
-    np.testing.assert_allclose(namespace["read"].fk(theta), T, rtol=0, atol=2e-15)
-    np.testing.assert_allclose(namespace["P"].sum(axis=0) / 1000, T[0, :3, 3] * 0 + [0.533, 0, 0.8891])
+def test_both_rows_cost_the_same():
+    assert printed("near-parallel").count("DH: 6 multiplications for a row") == 2
 
 
-def test_the_panda_turned_by_60_degrees():
-    panda = robots.franka_panda()
-    np.testing.assert_allclose(panda.M, SOURCES["Panda assignment"]["M"], rtol=0, atol=1e-15)
-    turned = panda.modified_dh.frames(np.pi / 3 * np.eye(7)[0])
-    expected = lie.exp6([0, 0, np.pi / 3, 0, 0, 0]) @ panda.modified_dh.frames(np.zeros(7))
-    np.testing.assert_allclose(turned, expected, rtol=0, atol=1e-15)
-    assert "(44.0, 76.2, 926.0) mm" in printed("figure-panda")
+def test_an_arm_with_a_slide_by_rows_and_by_exponentials():
+    """Where joint 3 slides by 150 mm downwards, the tool is 150 mm lower, and nowhere else."""
+    lines = [line for line in printed("scara").splitlines() if "tool at" in line]
+    rows, exponentials = (numbers(line) for line in lines)
+    assert rows == exponentials
+    x, y = 325 * np.array([np.cos(0.4), np.sin(0.4)]) + 275 * np.array([np.cos(-0.5), np.sin(-0.5)])
+    assert rows == [pytest.approx(x, abs=0.05), pytest.approx(y, abs=0.05), 387 - 150]
+
+
+def test_the_table_of_the_exam_is_one_of_those_that_are_right(solved):
+    """Table 1 of the exam's solution, with d_6 for its second d_4, and the pose that is drawn."""
+    rows = solved.dh_table(np.array([0.680, 0.150, 0.870, 1.080, 0.165]))
+    np.testing.assert_allclose(rows[:, 0], [0.150, 0.870, 0, 0, 0, 0])
+    np.testing.assert_allclose(rows[:, 1], np.radians([90, 0, 90, 90, 90, 0]))
+    np.testing.assert_allclose(rows[:, 2], [0.680, 0, 0, 1.080, 0, 0.165])
+    np.testing.assert_allclose(rows[:, 3], np.radians([0, 90, 0, 180, 180, 0]))
 
 
 def test_the_kawasaki_in_its_drawn_pose():
-    text = printed("kawasaki")
-    T = np.array([numbers(line) for line in text.splitlines()[-4:]])
+    T = np.array([numbers(line) for line in printed("kawasaki").splitlines()[-4:]])
     np.testing.assert_array_equal(T, [[0, 0, 1, 1395], [0, -1, 0, 0], [1, 0, 0, 1550], [0, 0, 0, 1]])
-    rows = [numbers(line) for line in text.splitlines()[2:8]]
-    assert [row[3] for row in rows] == [680, 0, 0, 1080, 0, 165]  # d, the flange in row 6
-    assert [row[5:] for row in rows] == [
+
+
+def test_the_joint_ranges_of_the_exam():
+    rows = [numbers(line) for line in printed("s030-ranges").splitlines()[3:9]]
+    assert [row[2:] for row in rows] == [
         [-180, 180],
         [-50, 195],
         [-65, 225],
@@ -166,18 +170,51 @@ def test_the_kawasaki_in_its_drawn_pose():
     ]
 
 
+def test_the_half_filled_rows_are_those_of_the_abb():
+    """The questions' formulas, at the lengths of the real arm, against its table."""
+    from coursekit.classroom.questions.nb01 import QUESTIONS
+
+    table, lengths = robots.abb_irb1200().standard_dh, {"L1": 399.1, "L2": 448, "L3": 42, "L4": 451}
+    for name, i in (("abb_row_2", 1), ("abb_row_4", 3)):
+        (question,) = [q for q in QUESTIONS if q.name == name]
+        row = [1000 * table.a[i], np.degrees(table.alpha[i]), 1000 * table.d[i], np.degrees(table.theta[i])]
+        np.testing.assert_allclose(question.answer(**lengths), row)
+
+
 @pytest.fixture
 def hunt(run):
-    return lambda *more: run("bug-hunt-code", "bug-hunt-check", *more, abb=robots.abb_irb1200())
+    def run_cells(*more):
+        abb = robots.abb_irb1200()
+        return run("bug-hunt-code", "bug-hunt-check", "bug-hunt-modified", *more, abb=abb)
+
+    return run_cells
 
 
-def test_the_faulty_code_is_as_wrong_as_the_projects(hunt):
+def test_the_faulty_code_is_as_wrong_as_the_projects():
     """The project's error runs from 324 to 1230 (standard) and 229 to 869 (modified), on another curve."""
+    standard, modified = printed("bug-hunt-modified").splitlines()
+    assert numbers(standard) == [pytest.approx(324, abs=3), pytest.approx(1230, abs=3)]
+    assert numbers(modified) == [pytest.approx(229, abs=3), pytest.approx(869, abs=10)]
+
+
+def test_the_first_frame_that_is_off_moves_outwards_with_every_repair(hunt):
+    """So a fault can be seen where it is: frame 1 (the unit), frame 2 (the entry), frame 6 (the offset)."""
     namespace = hunt()
-    least, most, _ = namespace["difference"](namespace["sdh_check"])
-    assert (least, most) == (pytest.approx(324, abs=3), pytest.approx(1230, abs=3))
-    least, most, _ = namespace["difference"](namespace["mdh_check"])
-    assert (least, most) == (pytest.approx(229, abs=3), pytest.approx(869, abs=10))
+    source, first = CELLS["bug-hunt-code"]["source"], []
+    turn = "T @ np.array([[0, 0, 1, 0], [0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 0, 1]])"
+    for old, new in (
+        ("", ""),
+        ("L1=399.1, L2=448, L3=42, L4=451, L5=82", "L1=0.3991, L2=0.448, L3=0.042, L4=0.451, L5=0.082"),
+        ("ca * st, -sa", "ca * ct, -sa"),
+        ("(0, 0, L5, 1)", "(0, 0, L5, 0)"),
+        ("*frames, T]", f"*frames, {turn}]"),
+    ):
+        source = source.replace(old, new) if old else source
+        notebook.run_cell(source, "repaired", namespace)
+        abb = robots.abb_irb1200()
+        rows = namespace["frame_by_frame"](namespace["sdh_check"], abb.standard_dh, abb.fk)
+        first.append(next((row[0] for row in rows if max(row[1:]) > 1e-9), "none"))
+    assert first == ["frame 1", "frame 2", "frame 6", "tool", "none"]
 
 
 def test_three_and_five_repairs_make_it_right(hunt):

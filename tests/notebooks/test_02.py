@@ -9,6 +9,8 @@ import pytest
 
 from coursekit import lie, robots
 from coursekit.classroom.author import notebook
+from coursekit.view import text as text_module
+from coursekit.view.figures.nb02 import telescope_arm
 from tests.kinematics.conftest import load
 
 PATH = Path(__file__).resolve().parents[2] / "notebooks" / "02_msb_derivation.ipynb"
@@ -76,3 +78,71 @@ def test_the_solutions_hold_for_every_robot(solved, name):
 def test_the_home_pose_of_the_abb(solved):
     lengths = load("numbers_of_the_sources")["IRB 1200 project"]["L"]
     assert np.allclose(solved.home_pose(np.array(lengths)), robots.abb_irb1200().M)
+
+
+def test_the_tables_of_the_abb_and_its_steps():
+    text = "".join("".join(output.get("text", "")) for output in CELLS["abb-tables"]["outputs"])
+    assert "h and P against both tables, 1000 poses: below 4e-15" in text
+    namespace = {"__name__": "notebook", "robots": robots, "np": np}
+    notebook.run_cell("\n".join(CELLS["figure-abb"]["source"].splitlines()[:3]), "P", namespace)
+    assert np.allclose(namespace["P"].sum(axis=0), [0.533, 0, 0.8891])
+
+
+def test_by_steps_and_by_screws_the_abb_goes_to_the_same_place():
+    text = "".join("".join(output.get("text", "")) for output in CELLS["abb-home"]["outputs"])
+    places = [line.partition("tool at")[2] for line in text.splitlines() if "tool at" in line]
+    expected = 1000 * robots.abb_irb1200().fk([0.4, 0.2, -0.5, 1.0, 0.7, -0.3])[:3, 3]
+    assert len(places) == 2
+    for place in places:
+        numbers = [float(word.strip("(), ")) for word in place.replace("mm", "").split()]
+        assert np.allclose(numbers, expected, atol=0.051)
+
+
+def test_the_panda_turned_by_60_degrees():
+    panda = robots.franka_panda()
+    turned = panda.modified_dh.frames(np.pi / 3 * np.eye(7)[0])
+    expected = lie.exp6([0, 0, np.pi / 3, 0, 0, 0]) @ panda.modified_dh.frames(np.zeros(7))
+    assert np.allclose(turned, expected, atol=1e-15)
+    text = "".join("".join(output.get("text", "")) for output in CELLS["figure-panda"]["outputs"])
+    assert "(44.0, 76.2, 926.0) mm" in text
+
+
+def test_the_bug_hunt_ends_at_the_wrist_and_nowhere_else(solved):
+    """What a student changes in its cell: x and z of the frame."""
+    source = CELLS["bug-hunt-printed"]["source"]
+    for x, z, ends in ((0.980, 0.435, False), (0.900, 0.400, False), (0.900, 0.435, True)):
+        namespace = {"np": np, "lie": lie, "kr6": robots.kuka_kr6(), "adjoint": solved.adjoint}
+        namespace |= {"yours": lambda function, *args, course: function(*args), "text": text_module}
+        notebook.run_cell(source.replace("x, z = 0.980, 0.435", f"x, z = {x}, {z}"), "hunt", namespace)
+        assert bool(namespace["off"].max() < 1e-12) == ends
+
+
+def test_the_telescope_of_the_figure_is_the_one_of_the_exercise(solved):
+    arm = telescope_arm()
+    M, S = solved.home_and_screws(np.array([0.15, 0.6, 0.12, 0.7, 0.2]))
+    assert np.allclose(M, arm.M)
+    assert np.allclose(S, arm.S)
+
+
+def test_the_scara_slides_down(solved):
+    scara = robots.scara()
+    S = solved.joint_screw("prismatic", np.array([0, 0, -2.0]), np.array([0.6, 0, 0.387]))
+    assert np.allclose(S, scara.S[:, 2])
+
+
+def test_the_half_filled_screws_are_those_of_the_abb():
+    from coursekit.classroom.questions.nb02 import QUESTIONS
+
+    S = robots.abb_irb1200().S * [[1], [1], [1], [1000], [1000], [1000]]
+    for name, i in (("abb_screw_4", 3), ("abb_screw_5", 4)):
+        (question,) = [q for q in QUESTIONS if q.name == name]
+        assert np.allclose(question.answer(L1=399.1, L2=448, L3=42, L4=451), S[:, i])
+
+
+@pytest.mark.parametrize("name", ["kuka_kr6", "abb_irb1200", "franka_panda", "scara"])
+def test_another_frame_is_another_base(solved, name):
+    robot, T = robots.all()[name], lie.exp6([0.3, -0.5, 0.2, 0.4, 0.1, 0.7])
+    S, M = solved.from_another_frame(robot.S, robot.M, T)
+    moved = robot.with_base(T)
+    assert np.allclose(S, moved.S, atol=1e-14)
+    assert np.allclose(M, moved.M, atol=1e-14)
