@@ -123,14 +123,14 @@ def placements(robot: Robot, fan: ArrayLike = (0.0, 0.0, 0.32)) -> None:
 
 
 def poses(robot: Robot, *thetas: Sequence[float] | np.ndarray, fan: ArrayLike = (0.3, 0.0, 0.1)) -> None:
-    """The modified frames and the tool frame of a robot in several configurations, side by side."""
+    """The modified frames and the tool frame of a robot in several configurations, seen from above."""
     if robot.modified_dh is None:
         raise ValueError(f"{robot.name} has no modified DH table")
     names = [*(str(i + 1) for i in range(robot.n)), "tool"]
     axes = axes_3d(len(thetas), (9.6, 6.2))
     for ax, theta in zip(axes, thetas, strict=True):
         frames = np.concatenate([robot.modified_dh.frames(theta), robot.fk(theta)[None]])
-        _scene(ax, robot, theta, frames, names, np.array(fan))
+        _scene(ax, robot, theta, frames, names, np.array(fan), view=(50, -90))
         ax.set_title(f"θ₁ = {np.degrees(theta[0]):.0f} deg", fontsize=11)
     _show()
 
@@ -200,8 +200,11 @@ def _arc(ax, T, start, stop, radius, name, color):
     ax.text(*middle, name, fontsize=12, color=palette(color), ha="center", va="center")
 
 
-def _scene(ax, robot, theta, frames, names, fan):
-    """The arm as a line through its joints, its axes dashed, and frames, fanned out where they crowd."""
+def _scene(ax, robot, theta, frames, names, fan, view=(16, -62)):
+    """The arm as a line through its joints, its axes dashed, and frames, fanned out where they crowd.
+
+    view: elevation and azimuth of the eye, in degrees.
+    """
     links = np.concatenate([robot.modified_dh.frames(theta), robot.fk(theta)[None]])
     points = np.concatenate([np.zeros((1, 3)), links[:, :3, 3]])
     ax.plot(*points.T, lw=8, color="#D5DAE1", solid_capstyle="round", solid_joinstyle="round")
@@ -220,5 +223,5 @@ def _scene(ax, robot, theta, frames, names, fan):
     points = np.concatenate([points, shown[:, :3, 3]])
     low, high = points.min(axis=0) - 0.16, points.max(axis=0) + 0.16
     limits_3d(ax, list(zip(low, high, strict=True)), ticks=np.arange(-2, 2.1, 0.5), unit="m")
-    ax.view_init(16, -62)
+    ax.view_init(*view)
     _name(ax, shown, names, 0.11)

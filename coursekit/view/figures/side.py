@@ -125,8 +125,9 @@ def draw_arm(ax: Axes, robot: Robot) -> None:
     for name, T in (("s", np.eye(4)), ("b", robot.M)):
         flat = [(k, page @ axis / 1000) for k, axis in zip("xyz", T[:3, :3].T, strict=True)]
         at = page @ T[:3, 3]
-        mark_frame(ax, name, at, [(k, way) for k, way in flat if np.abs(way).max() > 0.5])
-    ax.set(xlabel=f"{letter} [mm]", ylabel="z [mm]", xlim=(-210, tool[0] + 240))
+        shown = [(k, way) for k, way in flat if np.abs(way).max() > 0.5]
+        mark_frame(ax, name, at, shown, beside=(4, -16) if name == "b" else (-5, -16))
+    ax.set(xlabel=f"{letter} [mm]", ylabel="z [mm]", xlim=(-250, tool[0] + 240))
 
 
 def _length(ax, start, end, text, left=True):
