@@ -66,22 +66,17 @@ def mark_axis(
     slides: bool = False,
 ) -> None:
     """A joint axis: INTO (a cross), OUT_OF (a dot), or an arrow along `way`, a direction of the page."""
-    color, at = palette("axis"), np.asarray(at, dtype=float)
+    color, here = palette("axis"), _point(at)
     if isinstance(way, str):
-        ax.plot(*at, "o", ms=13, mfc="white", mec=color, mew=2, zorder=4)
-        ax.plot(*at, "x" if way == INTO else "o", ms=6 if way == INTO else 4, color=color, mew=2, zorder=5)
-        ax.annotate(name, at, (9, -18), textcoords="offset points", color=color)
+        ax.plot(*here, "o", ms=13, mfc="white", mec=color, mew=2, zorder=4)
+        ax.plot(*here, "x" if way == INTO else "o", ms=6 if way == INTO else 4, color=color, mew=2, zorder=5)
+        ax.annotate(name, here, (9, -18), textcoords="offset points", color=color)
         return
-    way = np.asarray(way, dtype=float)
-    style = {
-        "arrowstyle": "-|>",
-        "color": color,
-        "lw": 5 if slides else 2,
-        "mutation_scale": 20 if slides else 12,
-    }
-    ax.annotate("", at + length * way, at, arrowprops=style, zorder=4)
+    size = {"lw": 5, "mutation_scale": 20} if slides else {"lw": 2, "mutation_scale": 12}
+    style = {"arrowstyle": "-|>", "color": color, **size}
+    ax.annotate("", _point(here, way, length), here, arrowprops=style, zorder=4)
     beside = (6, 8) if abs(way[0]) > 0.5 else (8, -4)
-    ax.annotate(name, at + 0.5 * length * way, beside, textcoords="offset points", color=color)
+    ax.annotate(name, _point(here, way, length / 2), beside, textcoords="offset points", color=color)
 
 
 def mark_frame(
@@ -93,13 +88,12 @@ def mark_frame(
     beside: tuple[float, float] = (-5, -16),
 ) -> None:
     """A frame: its axes in the page as (name, direction), lettered; its name stands `beside` it, points."""
-    at = np.asarray(at, dtype=float)
     for name, way in axes:
-        tip = at + length * np.asarray(way, dtype=float)
+        tip = _point(at, way, length)
         style = {"arrowstyle": "-|>", "color": palette(name[0]), "lw": 2}
-        ax.annotate("", tip, at, arrowprops=style, zorder=6)
+        ax.annotate("", tip, _point(at), arrowprops=style, zorder=6)
         ax.annotate(name, tip, (3, 3), textcoords="offset points", color=palette(name[0]), fontsize=9)
-    ax.annotate(f"{{{letter}}}", at, beside, textcoords="offset points", color=INK, weight="bold")
+    ax.annotate(f"{{{letter}}}", _point(at), beside, textcoords="offset points", color=INK, weight="bold")
 
 
 def draw_arm(ax: Axes, robot: Robot) -> None:
@@ -141,3 +135,8 @@ def _length(ax, start, end, text, left=True):
     middle = np.mean([start, end], axis=0)
     offset = (-5 if left else 5, 0) if upright else (0, 4)
     ax.annotate(text, middle, offset, textcoords="offset points", fontsize=9, color=INK, **place)
+
+
+def _point(start: Any, way: Any = (0, 0), length: float = 0.0) -> tuple[float, float]:
+    """A point of the page: so far from `start` along `way`."""
+    return float(start[0] + length * way[0]), float(start[1] + length * way[1])
