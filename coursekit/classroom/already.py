@@ -124,10 +124,11 @@ def _lines(exercise: Exercise, masks: list) -> str:
 
 
 def _rows_of_a_set(masks: list) -> str:
-    counts = {(int(m[0].all(axis=1).sum()), len(m[0])) for m in masks}
+    counts = {(int(m[0].reshape(len(m[0]), -1).all(axis=1).sum()), len(m[0])) for m in masks}
     if len(counts) == 1 and 0 < next(iter(counts))[0] < next(iter(counts))[1]:
         fine, rows = next(iter(counts))
-        return f"{fine} of your {rows} rows {'is' if fine == 1 else 'are'} right"
+        what = "rows" if masks[0][0].ndim > 1 else "numbers"
+        return f"{fine} of your {rows} {what} {'is' if fine == 1 else 'are'} right"
     return ""
 
 

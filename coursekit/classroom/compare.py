@@ -35,6 +35,8 @@ def mask(kind: str, answer: np.ndarray, right: np.ndarray, tol: ArrayLike) -> np
     if kind == "columns_up_to_sign":
         signs = np.where(np.sum(answer * right, axis=0) < 0, -1.0, 1.0)
         return _near(signs * answer, right, tol)
+    if kind == "set" and answer.ndim == 1:
+        return _rows_in_any_order(answer[:, None], right[:, None], tol)[:, 0]
     if kind == "set":
         return _rows_in_any_order(answer, right, tol)
     return _near(answer, right, tol, cyclic=kind == "angle")

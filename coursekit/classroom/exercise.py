@@ -84,7 +84,7 @@ class Exercise:
                 "rotation"            close; and it is said if R is not a rotation, or T not a pose
                 "up_to_sign"          a vector whose sign is free
                 "columns_up_to_sign"  a matrix, each column of free sign
-                "set"                 rows in any order, each once, angles modulo 2 pi
+                "set"                 rows (or numbers) in any order, each once, angles modulo 2 pi
                 "any_solution"        right if all laws hold (they must then not call the function)
     tol       : absolute: an entry farther than this from the right one is wrong.
     edges     : cases that every set of examples contains, beside the drawn ones, which `usual` names.

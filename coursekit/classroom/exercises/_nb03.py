@@ -14,6 +14,7 @@ from coursekit.classroom.exercises._arm import (
     wrist,
     wrist_in_plane,
 )
+from coursekit.classroom.exercises._nb03_draws import turned
 
 NONE = 1e-5  # metres, degrees: a row that is nearer than this is right
 
@@ -119,3 +120,48 @@ def moves_the_tool_otherwise(args, value, right):
     return (
         f"J_b times your step should be as near to e as it can be: it is {deg(turned)} and {mm(shifted)} off"
     )
+
+
+def at_another_distance(args, value, right):
+    k, x, y, d = args
+    gaps = np.array([np.linalg.norm(y - turned(k, x, t)) - d for t in value])
+    if not np.isfinite(gaps).all():
+        return ""
+    if np.abs(gaps).max() < NONE:
+        return "both angles give the distance, but they are one solution: the other side of y is missing"
+    worst = gaps[np.abs(gaps).argmax()]
+    other = "; the other one is right" if np.abs(gaps).min() < NONE else ""
+    return f"turned by one of your angles, x is {mm(abs(worst))} too {'far' if worst > 0 else 'near'}{other}"
+
+
+def two_turns_that_miss(args, value, right):
+    k1, k2, x, y = args
+    ends = np.array([turned(k1, turned(k2, x, t2), t1) for t1, t2 in value])
+    return _two_rows(
+        np.linalg.norm(ends - y, axis=1),
+        mm,
+        value,
+        "put in, {} y by {}",
+        "both rows bring x to y, but they are one solution: the other one is missing",
+    )
+
+
+def carries_the_tool_otherwise(args, value, right):
+    """The velocities in the room, where one can see them."""
+    _, _, _, T = args
+    if not np.isfinite(value).all():
+        return ""
+    turns, moves = (T[:3, :3] @ (value - right)[half] for half in (slice(3), slice(3, 6)))
+    told = []
+    if np.linalg.norm(turns) > NONE:
+        told.append(f"omega by {np.linalg.norm(turns):.3g} rad/s")
+    if np.linalg.norm(moves) > NONE:
+        told.append(f"the velocity of the tool point by {mm(np.linalg.norm(moves))}/s")
+    return f"at 1 rad/s (1 m/s for a slide) your column misses {' and '.join(told)}" if told else ""
+
+
+def seen_in_space(args, value):
+    """What the joint does to the tool: its angular velocity and the velocity of the tool point."""
+    T = args[3]
+    p, R = T[:3, 3], T[:3, :3]
+    return {"frames": [T], "lines": [(args[2], args[1])], "arrows": [(p, R @ value[:3]), (p, R @ value[3:])]}

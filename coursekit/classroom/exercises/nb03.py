@@ -1,4 +1,4 @@
-"""Exercises of notebook 03: every solution of a six-axis arm with a spherical wrist, and Newton's method."""
+"""Exercises of notebook 03: every solution of a spherical-wrist arm, the Jacobian, Newton's method."""
 
 from __future__ import annotations
 
@@ -6,16 +6,8 @@ import numpy as np
 
 from coursekit.classroom.exercise import Block, Edge, Exercise, Hint
 from coursekit.classroom.exercises import _nb03 as _say
+from coursekit.classroom.exercises import _nb03_draws as _draw
 from coursekit.classroom.exercises import looks
-from coursekit.classroom.exercises._arm import (
-    KR6,
-    forward,
-    random_pose,
-    turn,
-    whole_pose,
-    wrist,
-    wrist_in_plane,
-)
 
 # What the student's functions may call from coursekit.kinematics.
 ALLOW = (
@@ -34,201 +26,19 @@ ALLOW = (
     "rotations.rotz",
 )
 
-REPORT = (2, -1, -1, 2.5, 0.6, 0)  # the report's target is where these angles lead
-TOOL = 0.08
-
-
-def _angles(rng, n):
-    """Angles that are not near a multiple of 90 degrees, where mistakes hide."""
-    return np.pi / 2 * rng.integers(-2, 2, n) + rng.uniform(0.25, 1.3, n)
-
-
-# ---- wrist_centre
-
-
-def _target(rng):
-    return random_pose(rng), rng.uniform(0.05, 0.2)
-
-
-def _target_not_turned(rng):
-    T, tool = _target(rng)
-    T[:3, :3] = np.eye(3)
-    return T, tool
-
-
-def _the_report(rng):
-    return forward(REPORT, KR6, TOOL), TOOL
-
-
-def _whole_target(rng):
-    return whole_pose(turn(2, np.pi / 2) @ turn(0, np.pi / 2), rng.integers(1, 9, 3)), 2
-
-
-# ---- subproblem1
-
-
-def _turn_by(rng, low, high, upright=False):
-    k, x = rng.normal(size=(2, 3))
-    k = k / np.linalg.norm(k)
-    if upright:
-        x = x - k * (k @ x)
-    t = rng.uniform(low, high)
-    return k, x, x * np.cos(t) + np.cross(k, x) * np.sin(t) + k * (k @ x) * (1 - np.cos(t))
-
-
-def _half_turn(rng):
-    """Numbers without rounding: an arccos is not NaN here, but has no sign."""
-    x, y, z = rng.choice([-1, 1]) * np.array([1.5, 2.0, 0.5])
-    return [0.0, 0.0, 1.0], [x, y, z], [-x, -y, z]
-
-
-def _whole_turn_numbers(rng):
-    a, b, c = (int(i) for i in rng.integers(1, 5, 3))
-    return [0, 1, 0], [a, b, c], [c, b, -a]
-
-
-# ---- elbow_solutions
-
-
-def _lengths(rng):
-    """a1, d1, a2, a3, d4 of an arm built like the KR6."""
-    return rng.uniform([0.02, 0.3, 0.4, 0.03, 0.4], [0.1, 0.6, 0.6, 0.08, 0.6])
-
-
-def _triangle(rng, out=1, up=1):
-    """P in front of the shoulder or behind it, above it or below.
-
-    It is so near that a wrong sign of the forearm's square has an answer, too.
-    """
-    lengths = _lengths(rng)
-    a1, d1, a2, a3, d4 = lengths
-    fore = np.hypot(a3, d4)
-    farthest = np.sqrt(a2**2 - fore**2 + 1.99 * a2 * fore)
-    b, phi = rng.uniform(abs(a2 - fore) + 0.1, farthest - 0.02), rng.uniform(0.2, 1.3)
-    return a1 + out * b * np.cos(phi), d1 + up * b * np.sin(phi), lengths
-
-
-def _folded(rng):
-    """P so near the shoulder that the angle there is more than 90 degrees."""
-    lengths = rng.uniform([0.02, 0.3, 0.4, 0.03, 0.55], [0.1, 0.6, 0.45, 0.08, 0.6])
-    b, phi = rng.uniform(0.25, 0.31), rng.uniform(0.2, 1.3)
-    return lengths[0] + b * np.cos(phi), lengths[1] + b * np.sin(phi), lengths
-
-
-def _the_report_in_plane(rng):
-    T = forward(REPORT, KR6, TOOL)
-    P = T[:3, 3] - TOOL * T[:3, 0]
-    return np.hypot(P[0], P[1]), P[2], KR6
-
-
-# ---- wrist_angles
-
-
-def _bent(rng, t5, out4=1, out6=1):
-    """R with theta_5 in a range; out4 and out6: the signs of the cosines of theta_4 and theta_6."""
-    t4, t6 = rng.choice([-1, 1], 2) * rng.uniform(0.25, 1.3, 2)
-    flip4, flip6 = np.pi * (out4 < 0), np.pi * (out6 < 0)
-    return (wrist((t4 + flip4, rng.uniform(*t5), t6 + flip6)),)
-
-
-# ---- all_solutions
-
-
-def _arm(rng):
-    """Joint angles with a bent elbow and a bent wrist, the lengths and the tool: eight solutions exist."""
-    while True:
-        theta, lengths = _angles(rng, 6), _lengths(rng)
-        theta[4] = rng.choice([-1, 1]) * rng.uniform(0.3, 2.8)
-        a1, _, a2, a3, d4 = lengths
-        out, up = wrist_in_plane(theta[1], theta[2], lengths)
-        nearest, farthest = abs(a2 - np.hypot(a3, d4)) + 0.05, a2 + np.hypot(a3, d4) - 0.05
-        reach = np.hypot(-abs(out) - a1, up), np.hypot(abs(out) - a1, up)  # over the back, to the front
-        if abs(out) > 0.1 and nearest < min(reach) and max(reach) < farthest:
-            return theta, lengths, rng.uniform(0.05, 0.2)
-
-
-def _reachable(rng, side=1):
-    """A target whose wrist centre has an x of this sign."""
-    while True:
-        theta, lengths, tool = _arm(rng)
-        T = forward(theta, lengths, tool)
-        if side * (T[0, 3] - tool * T[0, 0]) > 0.05:
-            return T, lengths, tool
-
-
-def _the_report_in_reach(rng):
-    return forward(REPORT, KR6, TOOL), KR6, TOOL
-
-
-def _whole_reachable(rng):
-    R = turn(1, np.pi / 2) @ turn(0, np.pi / 2)  # the tool points down
-    return whole_pose(R, np.array([3, -4, 5]) + R[:, 0]), [1, 2, 5, 3, 4], 1
-
-
-# ---- newton_step
-
-
-def _search(rng, n=6, turned=True, shifted=True):
-    """A Jacobian of n joints, a pose and a target near it."""
-    J = rng.normal(size=(6, n)) + 3 * np.eye(6, n)
-    here, change = random_pose(rng), np.eye(4)
-    if turned:
-        change[:3, :3] = turn(0, rng.uniform(0.2, 0.9)) @ turn(1, rng.uniform(0.2, 0.9))
-    if shifted:
-        change[:3, 3] = rng.uniform(0.1, 0.4, 3) * rng.choice([-1, 1], 3)
-    return J, here, here @ change
-
-
-def _singular_search(rng):
-    """Axes 4 and 6 in one line, as at guess A."""
-    J, here, there = _search(rng)
-    J[:, 5] = J[:, 3]
-    return J, here, there
-
-
-def _whole_search(rng):
-    J = np.diag(rng.integers(1, 4, 6)) + np.eye(6, k=1, dtype=int)
-    here = whole_pose(turn(0, np.pi / 2), rng.integers(1, 5, 3))
-    return J, here, whole_pose(turn(0, np.pi / 2) @ turn(2, np.pi / 2), rng.integers(1, 5, 3))
-
-
-# ---- laws
-
-
-def _turns_x_to_y(_f, args, t):
-    k, x, y = args
-    turned = x * np.cos(t) + np.cross(k, x) * np.sin(t) + k * (k @ x) * (1 - np.cos(t))
-    return bool(np.allclose(turned, y, atol=1e-6))
-
-
-def _reaches(_f, args, solutions):
-    r, z, lengths = args
-    out, up = wrist_in_plane(*solutions.T, lengths)
-    return bool(np.allclose(out, r, atol=1e-5) and np.allclose(lengths[1] + up, z, atol=1e-5))
-
-
-def _gives_R(_f, args, solutions):
-    return bool(np.allclose([wrist(row) for row in solutions], args[0], atol=1e-5))
-
-
-def _gives_T(_f, args, solutions):
-    T, lengths, tool = args
-    return bool(np.allclose([forward(theta, lengths, tool) for theta in solutions], T, atol=1e-5))
-
-
 EXERCISES = [
     Exercise(
         "wrist_centre(T_sd, tool)",
         look=looks.point,
         points=1,
-        draw=_target,
+        draw=_draw.target,
         shape=(3,),
         unit="m",
         samples=3,
         edges=(
-            Edge("for the report's target", _the_report),
-            Edge("for a tool frame that is not turned", _target_not_turned),
-            Edge("for whole numbers", _whole_target),
+            Edge("for the report's target", _draw.the_report),
+            Edge("for a tool frame that is not turned", _draw.target_not_turned),
+            Edge("for whole numbers", _draw.whole_target),
         ),
         usual="for a tool frame that is turned",
         blocks=(Block("x of P", 0), Block("y of P", 1), Block("z of P", 2)),
@@ -245,22 +55,26 @@ EXERCISES = [
         "subproblem1(k, x, y)",
         look=looks.turned,
         points=2,
-        draw=lambda rng: _turn_by(rng, 0.25, 1.3),
+        draw=lambda rng: _draw.turn_by(rng, 0.25, 1.3),
         shape=(),
         compare="angle",
         unit="rad",
         samples=3,
         edges=(
-            Edge("for a turn of more than 90 degrees", lambda rng: _turn_by(rng, 1.8, 2.9), 2),
-            Edge("for a negative turn", lambda rng: _turn_by(rng, -1.3, -0.25), 2),
-            Edge("for a negative turn of more than 90 degrees", lambda rng: _turn_by(rng, -2.9, -1.8), 2),
-            Edge("where x and y are at right angles to k", lambda rng: _turn_by(rng, 0.25, 1.3, True), 2),
-            Edge("for half a turn", _half_turn),
-            Edge("for whole numbers", _whole_turn_numbers),
+            Edge("for a turn of more than 90 degrees", lambda rng: _draw.turn_by(rng, 1.8, 2.9), 2),
+            Edge("for a negative turn", lambda rng: _draw.turn_by(rng, -1.3, -0.25), 2),
+            Edge(
+                "for a negative turn of more than 90 degrees", lambda rng: _draw.turn_by(rng, -2.9, -1.8), 2
+            ),
+            Edge(
+                "where x and y are at right angles to k", lambda rng: _draw.turn_by(rng, 0.25, 1.3, True), 2
+            ),
+            Edge("for half a turn", _draw.half_turn),
+            Edge("for whole numbers", _draw.whole_turn_numbers),
         ),
         usual="for turns between 0 and 90 degrees",
         residual=_say.turned_too_far,
-        laws=(("turning x by your angle about k must give y", _turns_x_to_y),),
+        laws=(("turning x by your angle about k must give y", _draw.turns_x_to_y),),
         hints=(
             Hint("swapped", "numpy's arctan2 takes the sine first, then the cosine"),
             Hint("not_removed", "only the parts of x and y across k turn: take the part along k away first"),
@@ -275,22 +89,22 @@ EXERCISES = [
         "elbow_solutions(r, z, lengths)",
         look=looks.elbows,
         points=3,
-        draw=_triangle,
+        draw=_draw.triangle,
         shape=(2, 2),
         compare="set",
         unit="rad",
         samples=4,
         edges=(
-            Edge("for the report's target", _the_report_in_plane),
-            Edge("where P is behind the shoulder", lambda rng: _triangle(rng, out=-1), 2),
-            Edge("where P is below the shoulder", lambda rng: _triangle(rng, up=-1), 2),
-            Edge("where P is near the shoulder and the arm folded", _folded, 2),
+            Edge("for the report's target", _draw.the_report_in_plane),
+            Edge("where P is behind the shoulder", lambda rng: _draw.triangle(rng, out=-1), 2),
+            Edge("where P is below the shoulder", lambda rng: _draw.triangle(rng, up=-1), 2),
+            Edge("where P is near the shoulder and the arm folded", _draw.folded, 2),
             Edge("for whole numbers", lambda rng: (5, 7, [1, 2, 5, 3, 4])),
         ),
         usual="where P is in front of the shoulder and above it",
         blocks=(Block("theta_2", np.s_[:, 0]), Block("theta_3", np.s_[:, 1])),
         residual=_say.misses_the_wrist_centre,
-        laws=(("each row, put back into the arm, must put the wrist centre at (r, z)", _reaches),),
+        laws=(("each row, put back into the arm, must put the wrist centre at (r, z)", _draw.reaches),),
         hints=(
             Hint(
                 "height",
@@ -308,18 +122,15 @@ EXERCISES = [
         "wrist_angles(R)",
         look=looks.from_wrist,
         points=2,
-        draw=lambda rng: _bent(rng, (0.3, 1.3)),
+        draw=lambda rng: _draw.bent(rng, (0.3, 1.3)),
         shape=(2, 3),
         compare="set",
         unit="rad",
         edges=(
-            Edge("where R[0, 0] is negative", lambda rng: _bent(rng, (1.8, 2.8)), 2),
-            Edge("where R[2, 0] is positive", lambda rng: _bent(rng, (0.3, 1.3), out4=-1), 2),
-            Edge("where R[0, 2] is negative", lambda rng: _bent(rng, (0.3, 1.3), out6=-1), 2),
-            Edge(
-                "for whole numbers",
-                lambda rng: (whole_pose(wrist(np.pi / 2 * np.array([0, 1, 1])), 0)[:3, :3],),
-            ),
+            Edge("where R[0, 0] is negative", lambda rng: _draw.bent(rng, (1.8, 2.8)), 2),
+            Edge("where R[2, 0] is positive", lambda rng: _draw.bent(rng, (0.3, 1.3), out4=-1), 2),
+            Edge("where R[0, 2] is negative", lambda rng: _draw.bent(rng, (0.3, 1.3), out6=-1), 2),
+            Edge("for whole numbers", _draw.whole_wrist),
         ),
         usual="where R[0, 0] > 0, R[2, 0] < 0 and R[0, 2] > 0",
         blocks=(
@@ -328,7 +139,7 @@ EXERCISES = [
             Block("theta_6", np.s_[:, 2]),
         ),
         residual=_say.misses_the_rotation,
-        laws=(("each row, put back into Rx(-t4) Ry(t5) Rx(-t6), must give R", _gives_R),),
+        laws=(("each row, put back into Rx(-t4) Ry(t5) Rx(-t6), must give R", _draw.gives_R),),
         hints=(
             Hint("sqrt", "R11 is a cosine; its sine is the root of 1 - R11 squared, not of 1 - R11"),
             Hint("xyz", "you solved for x-y-z angles; axes 4 and 6 are both along x, so it is x-y-x"),
@@ -341,21 +152,21 @@ EXERCISES = [
         "all_solutions(T_sd, lengths, tool)",
         look=looks.arm,
         points=4,
-        draw=_reachable,
+        draw=_draw.reachable,
         shape=(8, 6),
         compare="set",
         unit="rad",
         samples=2,
         n=14,
         edges=(
-            Edge("for the report's target", _the_report_in_reach),
-            Edge("where P has a negative x", lambda rng: _reachable(rng, -1), 2),
-            Edge("for whole numbers", _whole_reachable),
+            Edge("for the report's target", _draw.the_report_in_reach),
+            Edge("where P has a negative x", lambda rng: _draw.reachable(rng, -1), 2),
+            Edge("for whole numbers", _draw.whole_reachable),
         ),
         usual="where P has a positive x",
         blocks=tuple(Block(f"theta_{i + 1}", np.s_[:, i]) for i in range(6)),
         residual=_say.joints_that_miss,
-        laws=(("each row, put through the arm, must give T_sd back", _gives_T),),
+        laws=(("each row, put through the arm, must give T_sd back", _draw.gives_T),),
         hints=(
             Hint(
                 "front_only",
@@ -371,19 +182,59 @@ EXERCISES = [
         ),
     ),
     Exercise(
+        "jacobian_column(kind, w, q, T)",
+        look=_say.seen_in_space,
+        points=2,
+        draw=_draw.column,
+        shape=(6,),
+        unit="1, m",
+        samples=3,
+        edges=(
+            Edge("for a slide", lambda rng: _draw.column(rng, "prismatic"), 2),
+            Edge("for a tool frame that is not turned", lambda rng: _draw.column(rng, R=np.eye(3))),
+            Edge("for an axis through the tool point", _draw.through_the_tool),
+            Edge("for whole numbers", _draw.whole_column),
+        ),
+        usual="for a hinge",
+        blocks=(
+            Block("the upper half (omega)", np.s_[:3]),
+            Block("the lower half (v)", np.s_[3:]),
+        ),
+        residual=_say.carries_the_tool_otherwise,
+        hints=(
+            Hint(
+                "not_turned",
+                "these are the components along the axes of the room: turn both into the tool frame",
+            ),
+            Hint("turned_back", "R of T maps from the tool to the room; you need the other way"),
+            Hint(
+                "reversed", "v = w x (p - q), from the axis to the tool point: your v has the opposite sign"
+            ),
+            Hint(
+                "at_the_origin", "-w x q is the velocity of the room's origin; here the tool point p counts"
+            ),
+            Hint("slide_as_hinge", "a slide turns nothing: its column is (0; w)"),
+            Hint(
+                "slide_turns",
+                "a slide moves the tool along w, and does not turn it: its halves are exchanged",
+            ),
+            Hint("v_first", "(omega; v): you exchanged the two halves"),
+        ),
+    ),
+    Exercise(
         "newton_step(J_b, T_sb, T_sd)",
         points=2,
-        draw=_search,
+        draw=_draw.search,
         shape=(None,),
         unit="rad",
         samples=3,
         edges=(
-            Edge("for seven joints", lambda rng: _search(rng, 7), 2),
-            Edge("for two joints", lambda rng: _search(rng, 2)),
-            Edge("where J_b is singular", _singular_search),
-            Edge("where the target is only shifted", lambda rng: _search(rng, turned=False)),
-            Edge("where the target is only turned", lambda rng: _search(rng, shifted=False)),
-            Edge("for whole numbers", _whole_search),
+            Edge("for seven joints", lambda rng: _draw.search(rng, 7), 2),
+            Edge("for two joints", lambda rng: _draw.search(rng, 2)),
+            Edge("where J_b is singular", _draw.singular_search),
+            Edge("where the target is only shifted", lambda rng: _draw.search(rng, turned=False)),
+            Edge("where the target is only turned", lambda rng: _draw.search(rng, shifted=False)),
+            Edge("for whole numbers", _draw.whole_search),
         ),
         usual="for six joints",
         residual=_say.moves_the_tool_otherwise,
@@ -392,6 +243,64 @@ EXERCISES = [
             Hint("difference", "the difference of two matrices is not a twist: take the logarithm"),
             Hint("transpose", "that is J_b transposed; Newton's step needs the pseudo-inverse"),
             Hint("backwards", "the step leads away from the target: the error goes from here to there"),
+        ),
+    ),
+    Exercise(
+        "subproblem3(k, x, y, distance)",
+        points=2,
+        draw=_draw.distance,
+        shape=(2,),
+        compare="set",
+        unit="rad",
+        samples=3,
+        edges=(
+            Edge("where x and y lie in the plane across k", lambda rng: _draw.distance(rng, True), 2),
+            Edge("where y lies far along k", _draw.far_apart),
+            Edge("for whole numbers", _draw.whole_distance),
+        ),
+        usual="where x and y differ in height along k",
+        residual=_say.at_another_distance,
+        laws=(("x turned by each of your angles must be at the distance from y", _draw.keeps_the_distance),),
+        hints=(
+            Hint(
+                "not_removed",
+                "in the plane across k lie only the parts of x and y across k: shorten all three sides",
+            ),
+            Hint("no_height", "x and y differ in height along k: that part of the distance no turn changes"),
+            Hint(
+                "around_zero", "the two angles lie around the one that brings x in line with y, not around 0"
+            ),
+            Hint("from_y", "you turn y to x: x turns about k, so the middle angle leads from x to y"),
+            Hint("one_only", "that is one of two: x can come to the distance on either side of y"),
+        ),
+    ),
+    Exercise(
+        "subproblem2(k1, k2, x, y)",
+        points=3,
+        draw=_draw.two_turns,
+        shape=(2, 2),
+        compare="set",
+        unit="rad",
+        samples=3,
+        edges=(
+            Edge("for axes at right angles", lambda rng: _draw.two_turns(rng, upright=True), 2),
+            Edge("where x lies on the first axis", lambda rng: _draw.two_turns(rng, along=True)),
+            Edge("for whole numbers", _draw.whole_two_turns),
+        ),
+        usual="for axes that are not at right angles",
+        blocks=(Block("t1", np.s_[:, 0]), Block("t2", np.s_[:, 1])),
+        residual=_say.two_turns_that_miss,
+        laws=(("x, turned by t2 about k2 and then by t1 about k1, must be y", _draw.turns_both),),
+        hints=(
+            Hint(
+                "right_angles",
+                "right for axes at right angles only: otherwise k1 . z holds a part of b as well",
+            ),
+            Hint("exchanged", "each row is (t1, t2): you have t2 first"),
+            Hint("backwards", "both turns go backwards: k2 carries x to z, k1 carries z to y"),
+            Hint("heights", "z has the height of y along k1 and that of x along k2; you exchanged them"),
+            Hint("mixed", "t1 of one solution stands beside t2 of the other"),
+            Hint("one_only", "that is one of two: the circles meet in two points"),
         ),
     ),
 ]

@@ -1,10 +1,11 @@
-"""Exercises of notebook 04: singularities."""
+"""Exercises of notebook 04: singularities, and the exam about the S030."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from coursekit.classroom.exercise import Block, Edge, Exercise, Hint
+from coursekit.classroom.exercises import _nb04 as _exam
 from coursekit.classroom.exercises import looks
 from coursekit.classroom.exercises._arm import KR6, deg, mm, wrist_in_plane
 
@@ -295,6 +296,35 @@ EXERCISES = [
             Hint("lower", "that is the other solution, with the wrist lower"),
             Hint("upwards", "a positive angle turns downwards here; you let it turn upwards"),
             Hint("sum", "this is theta2 + theta3, the angle of the forearm in the room"),
+        ),
+    ),
+    Exercise(
+        "theta2_system(p, theta1, theta3, lengths)",
+        points=2,
+        draw=_exam.reached,
+        shape=(),
+        compare="angle",
+        unit="rad",
+        edges=(
+            Edge("for the exam's p_n", _exam.the_exam),
+            Edge("where the arm reaches over its back", lambda rng: _exam.reached(rng, front=False), 2),
+            Edge("where cos(theta_3) is negative", lambda rng: _exam.reached(rng, folded=True), 2),
+            Edge("for whole numbers", _exam.whole_exam),
+        ),
+        usual="where the arm reaches to the front",
+        residual=_exam.misses_p,
+        hints=(
+            Hint("swapped", "the first unknown of the system is the cosine; arctan2 takes the sine first"),
+            Hint("no_a1", "the upper arm begins at a1, not at axis 1"),
+            Hint("no_d1", "the shoulder stands at the height d1: subtract it from p_z"),
+            Hint("one_sign", "look at the signs of d4 cos(theta_3): they differ in the two rows"),
+            Hint(
+                "front_only", "over its back the arm reaches to a negative distance: use theta1, not a length"
+            ),
+            Hint(
+                "one_quadrant",
+                "an arccos or arcsin of one unknown knows half of the circle: use both unknowns",
+            ),
         ),
     ),
     Exercise(

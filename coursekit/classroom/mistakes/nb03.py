@@ -166,6 +166,116 @@ def all_with_R_reversed(T_sd, lengths, tool):
     return _joined(T_sd, lengths, tool, [(t1, r), (t1 + np.pi, -r)], lambda R_123, R_sd: R_sd @ R_123.T)
 
 
+# -- subproblem2 and subproblem3
+
+
+def _across(k, x):
+    return x - k * (k @ x)
+
+
+def _swing(k, x, y, squares):
+    """Both angles of a triangle whose sides at the axis have these squares, and the third one."""
+    a2, b2, d2 = squares
+    bend = np.arccos(np.clip((a2 + b2 - d2) / (2 * np.sqrt(a2 * b2)), -1, 1))
+    return right.subproblem1(k, x, y) + np.array([-bend, bend])
+
+
+def distance_in_space(k, x, y, distance):
+    return _swing(k, x, y, (x @ x, y @ y, distance**2))
+
+
+def distance_without_height(k, x, y, distance):
+    x1, y1 = _across(k, x), _across(k, y)
+    return _swing(k, x, y, (x1 @ x1, y1 @ y1, distance**2))
+
+
+def distance_around_zero(k, x, y, distance):
+    return right.subproblem3(k, x, y, distance) - right.subproblem1(k, _across(k, x), _across(k, y))
+
+
+def distance_from_y(k, x, y, distance):
+    return -right.subproblem3(k, x, y, distance)
+
+
+def distance_one_only(k, x, y, distance):
+    return right.subproblem3(k, x, y, distance)[:1]
+
+
+def _between(k1, k2, x, a, b, square):
+    """Both places of z, with the parts along k1 and k2 and the square of its length as given."""
+    n, c = np.cross(k1, k2), k1 @ k2
+    g = np.sqrt(max(square - a * a - b * b - 2 * a * b * c, 0) / (n @ n))
+    return [a * k1 + b * k2 + side * n for side in (g, -g)]
+
+
+def turns_at_right_angles(k1, k2, x, y):
+    places = _between(k1, k2, x, k1 @ y, k2 @ x, x @ x)
+    return np.array([[right.subproblem1(k1, z, y), right.subproblem1(k2, x, z)] for z in places])
+
+
+def turns_exchanged(k1, k2, x, y):
+    return right.subproblem2(k1, k2, x, y)[:, ::-1]
+
+
+def turns_backwards(k1, k2, x, y):
+    return -right.subproblem2(k1, k2, x, y)
+
+
+def turns_with_heights_exchanged(k1, k2, x, y):
+    c = k1 @ k2
+    a, b = np.linalg.solve([[1, c], [c, 1]], [k1 @ x, k2 @ y])
+    places = _between(k1, k2, x, a, b, x @ x)
+    return np.array([[right.subproblem1(k1, z, y), right.subproblem1(k2, x, z)] for z in places])
+
+
+def turns_mixed(k1, k2, x, y):
+    rows = right.subproblem2(k1, k2, x, y)
+    return np.column_stack([rows[:, 0], rows[::-1, 1]])
+
+
+def turns_one_only(k1, k2, x, y):
+    return right.subproblem2(k1, k2, x, y)[:1]
+
+
+# -- jacobian_column
+
+
+def column_not_turned(kind, w, q, T):
+    R = np.eye(4)
+    R[:3, 3] = T[:3, 3]
+    return right.jacobian_column(kind, w, q, R)
+
+
+def column_turned_back(kind, w, q, T):
+    R = T.copy()
+    R[:3, :3] = T[:3, :3].T
+    return right.jacobian_column(kind, w, q, R)
+
+
+def column_reversed(kind, w, q, T):
+    column = right.jacobian_column(kind, w, q, T)
+    return column if kind == "prismatic" else column * [1, 1, 1, -1, -1, -1]
+
+
+def column_at_the_origin(kind, w, q, T):
+    R = T.copy()
+    R[:3, 3] = 0
+    return right.jacobian_column(kind, w, q, R)
+
+
+def column_of_a_hinge(kind, w, q, T):
+    return right.jacobian_column("revolute", w, q, T)
+
+
+def column_that_turns(kind, w, q, T):
+    column = right.jacobian_column(kind, w, q, T)
+    return np.roll(column, 3) if kind == "prismatic" else column
+
+
+def column_v_first(kind, w, q, T):
+    return np.roll(right.jacobian_column(kind, w, q, T), 3)
+
+
 # -- newton_step
 
 
@@ -228,5 +338,29 @@ WRONG = {
         "difference": step_of_difference,
         "transpose": step_by_transpose,
         "backwards": step_backwards,
+    },
+    "subproblem3": {
+        "not_removed": distance_in_space,
+        "no_height": distance_without_height,
+        "around_zero": distance_around_zero,
+        "from_y": distance_from_y,
+        "one_only": distance_one_only,
+    },
+    "subproblem2": {
+        "right_angles": turns_at_right_angles,
+        "exchanged": turns_exchanged,
+        "backwards": turns_backwards,
+        "heights": turns_with_heights_exchanged,
+        "mixed": turns_mixed,
+        "one_only": turns_one_only,
+    },
+    "jacobian_column": {
+        "not_turned": column_not_turned,
+        "turned_back": column_turned_back,
+        "reversed": column_reversed,
+        "at_the_origin": column_at_the_origin,
+        "slide_as_hinge": column_of_a_hinge,
+        "slide_turns": column_that_turns,
+        "v_first": column_v_first,
     },
 }

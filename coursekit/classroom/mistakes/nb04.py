@@ -47,6 +47,36 @@ def shoulder_without_a3(theta2, lengths):
     return shoulder(theta2, a1, a2, 0, d4)
 
 
+def _system(p, theta1, theta3, lengths, sign=1.0):
+    """cos(theta_2) and sin(theta_2) of the exam's eq. 5; sign: of the lower left entry."""
+    a1, d1, a2, d4 = lengths
+    s, c = np.sin(theta3), np.cos(theta3)
+    b = [p[0] * np.cos(theta1) + p[1] * np.sin(theta1) - a1, p[2] - d1]
+    return np.linalg.solve([[a2 + d4 * s, d4 * c], [-sign * d4 * c, a2 + d4 * s]], b)
+
+
+def theta2_swapped(p, theta1, theta3, lengths):
+    return np.arctan2(*_system(p, theta1, theta3, lengths))
+
+
+def theta2_without(p, theta1, theta3, lengths, which):
+    lengths = np.array(lengths, float)
+    lengths[which] = 0
+    return right.theta2_system(p, theta1, theta3, lengths)
+
+
+def theta2_with_one_sign(p, theta1, theta3, lengths):
+    return np.arctan2(*_system(p, theta1, theta3, lengths, sign=-1.0)[::-1])
+
+
+def theta2_to_the_front(p, theta1, theta3, lengths):
+    return right.theta2_system([np.hypot(p[0], p[1]), 0, p[2]], 0, theta3, lengths)
+
+
+def theta2_by_arccos(p, theta1, theta3, lengths):
+    return np.arccos(np.clip(_system(p, theta1, theta3, lengths)[0], -1, 1))
+
+
 def rank_by_determinant(J, tol):
     n = min(J.shape)
     square = J @ J.T if J.shape[0] == n else J.T @ J
@@ -87,6 +117,14 @@ WRONG = {
         "lower": lambda theta2, lengths: shoulder(theta2, *lengths[:4], higher=1),
         "upwards": shoulder_turning_upwards,
         "sum": lambda theta2, lengths: theta2 + right.shoulder_theta3(theta2, lengths),
+    },
+    "theta2_system": {
+        "swapped": theta2_swapped,
+        "no_a1": lambda p, theta1, theta3, lengths: theta2_without(p, theta1, theta3, lengths, 0),
+        "no_d1": lambda p, theta1, theta3, lengths: theta2_without(p, theta1, theta3, lengths, 1),
+        "one_sign": theta2_with_one_sign,
+        "front_only": theta2_to_the_front,
+        "one_quadrant": theta2_by_arccos,
     },
     "rank": {
         "determinant": rank_by_determinant,

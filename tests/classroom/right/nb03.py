@@ -201,3 +201,96 @@ def newton_step__blocks(J_b, T_sb, T_sd):
     T[:3, :3] = np.einsum("ji,jk->ik", R, T_sd[:3, :3])
     T[:3, 3] = R.T @ (T_sd[:3, 3] - p)
     return np.einsum("ij,j->i", np.linalg.pinv(J_b), lie.log6(T))
+
+
+# -- subproblem3
+
+
+def subproblem3__plane_wave(k, x, y, distance):
+    """y . rot(k, t) x is what the distance says: a cos t + b sin t = c."""
+    fixed = (k @ x) * (k @ y)
+    a, b = x @ y - fixed, y @ np.cross(k, x)
+    c = (x @ x + y @ y - distance**2) / 2 - fixed
+    return [np.arctan2(b, a) + side * np.arccos(c / np.hypot(a, b)) for side in (1, -1)]
+
+
+def subproblem3__triangle(k, x, y, distance):
+    shadow = lambda v: v - np.dot(k, v) * k  # noqa: E731
+    x1, y1 = shadow(x), shadow(y)
+    a, b = np.linalg.norm(x1), np.linalg.norm(y1)
+    d2 = distance**2 - (k @ y - k @ x) ** 2
+    bend = math.acos((a**2 + b**2 - d2) / (2 * a * b))
+    middle = math.atan2(k @ np.cross(x, y), x1 @ y1)
+    return np.array([middle + bend, middle - bend])
+
+
+def subproblem3__half_angle(k, x, y, distance):
+    """A quadratic in the tangent of half the angle."""
+    fixed = (k @ x) * (k @ y)
+    a, b = x @ y - fixed, y @ np.cross(k, x)
+    c = (x @ x + y @ y - distance**2) / 2 - fixed
+    root = np.sqrt(a * a + b * b - c * c)
+    return np.array([2 * np.arctan2(b + root, a + c), 2 * np.arctan2(b - root, a + c)])
+
+
+# -- subproblem2
+
+
+def subproblem2__cramer(k1, k2, x, y):
+    c = float(np.dot(k1, k2))
+    h1, h2 = float(np.dot(k1, y)), float(np.dot(k2, x))
+    a, b = (h1 - c * h2) / (1 - c * c), (h2 - c * h1) / (1 - c * c)
+    n = np.cross(k1, k2)
+    g = math.sqrt((x @ x - a * a - b * b - 2 * a * b * c) / (1 - c * c))
+    out = []
+    for sign in (-1, 1):
+        z = a * np.asarray(k1) + b * np.asarray(k2) + sign * g * n
+        out.append((right.subproblem1(k1, z, y), -right.subproblem1(k2, z, x)))
+    return out
+
+
+def subproblem2__least_squares(k1, k2, x, y):
+    """The point of the line of both heights that is nearest to the origin, then along the line."""
+    rows = np.stack([k1, k2]).astype(float)
+    foot = np.linalg.pinv(rows) @ [k1 @ y, k2 @ x]
+    n = np.cross(k1, k2) / np.linalg.norm(np.cross(k1, k2))
+    reach = np.sqrt(y @ y - foot @ foot)
+    both = np.array([foot + reach * n, foot - reach * n])
+    return np.array([[right.subproblem1(k1, z, y), right.subproblem1(k2, x, z)] for z in both])
+
+
+def subproblem2__by_height(k1, k2, x, y):
+    """k1 . rot(k2, t2) x = k1 . y has two roots t2; for each of them one turn is left."""
+    fixed = (k1 @ k2) * (k2 @ x)
+    a, b, c = k1 @ x - fixed, k1 @ np.cross(k2, x), k1 @ y - fixed
+    rows = []
+    for side in (-1, 1):
+        t2 = np.arctan2(b, a) + side * np.arccos(c / np.hypot(a, b))
+        z = lie.exp3(np.asarray(k2) * t2) @ x
+        rows.append([right.subproblem1(k1, z, y), t2])
+    return np.array(rows)
+
+
+# -- jacobian_column
+
+
+def jacobian_column__adjoint(kind, w, q, T):
+    """The screw in the room, then the adjoint."""
+    S = [0, 0, 0, *w] if kind == "prismatic" else [*w, *(-np.cross(w, q))]
+    return lie.adjoint(lie.inverse(T)) @ S
+
+
+def jacobian_column__all_in_the_tool(kind, w, q, T):
+    back = lie.inverse(T)
+    axis, point = back[:3, :3] @ w, (back @ [*q, 1])[:3]
+    if kind != "revolute":
+        return np.hstack([[0, 0, 0], axis])
+    return np.hstack([axis, np.cross(point, axis)])
+
+
+def jacobian_column__lists(kind, w, q, T):
+    d = [T[i][3] - q[i] for i in range(3)]
+    v = [w[1] * d[2] - w[2] * d[1], w[2] * d[0] - w[0] * d[2], w[0] * d[1] - w[1] * d[0]]
+    omega, v = (w, v) if kind == "revolute" else ([0, 0, 0], w)
+    turn = lambda x: [sum(T[i][j] * x[i] for i in range(3)) for j in range(3)]  # noqa: E731
+    return turn(omega) + turn(v)

@@ -119,3 +119,28 @@ def lost_motion__qr(J):
     rest = np.eye(6) - given @ given.T
     k = np.argmax(np.linalg.norm(rest, axis=0))
     return rest[:, k] / np.linalg.norm(rest[:, k])
+
+
+# -- theta2_system
+
+
+def theta2_system__cramer(p, theta1, theta3, lengths):
+    a1, d1, a2, d4 = lengths
+    m, n = a2 + d4 * math.sin(theta3), d4 * math.cos(theta3)
+    out = p[0] * math.cos(theta1) + p[1] * math.sin(theta1) - a1
+    up = p[2] - d1
+    return math.atan2(m * up + n * out, m * out - n * up)
+
+
+def theta2_system__two_angles(p, theta1, theta3, lengths):
+    """The direction of P from the shoulder, less the angle between it and the upper arm."""
+    a1, d1, a2, d4 = lengths
+    out = np.array([np.cos(theta1), np.sin(theta1), 0]) @ p - a1
+    inside = np.arctan2(-d4 * np.cos(theta3), a2 + d4 * np.sin(theta3))
+    return np.arctan2(p[2] - d1, out) - inside
+
+
+def theta2_system__complex(p, theta1, theta3, lengths):
+    a1, d1, a2, d4 = lengths
+    target = complex(p[0] * np.cos(theta1) + p[1] * np.sin(theta1) - a1, p[2] - d1)
+    return np.angle(target / (a2 - 1j * d4 * np.exp(1j * theta3)))
