@@ -21,6 +21,7 @@ __all__ = [
     "Ellipsoid",
     "by_differences",
     "by_matrix_derivative",
+    "column",
     "ellipsoid",
     "manipulability",
     "of_hinges",
@@ -28,6 +29,23 @@ __all__ = [
     "skew_theory",
     "transform_rate",
 ]
+
+
+def column(kind: str, w: ArrayLike, q: ArrayLike, T: ArrayLike) -> np.ndarray:
+    """One column of J_b: the twist of the tool, seen from it, while one joint alone moves at 1 rad/s or 1 m/s.
+
+    kind "revolute" or "prismatic"; w (3,) its axis of length 1 and q (3,) a point on it, where they are now,
+    and T (4, 4) the tool, all in the space frame -> (6,), (omega; v). A slide needs no point. Lynch & Park,
+    section 5.1.
+
+    >>> column("revolute", [0, 0, 1], [0, 0, 0], np.eye(4) + np.eye(4, k=3)).tolist()
+    [0.0, 0.0, 1.0, 0.0, 1.0, 0.0]
+    """
+    if kind not in ("revolute", "prismatic"):
+        raise ValueError(f"kind must be 'revolute' or 'prismatic', got {kind!r}")
+    w, q, T = checks.array(w, (3,), "w"), checks.array(q, (3,), "q"), checks.pose(T, "T")
+    omega, v = (w, np.cross(w, T[:3, 3] - q)) if kind == "revolute" else (np.zeros(3), w)
+    return np.concatenate([omega @ T[:3, :3], v @ T[:3, :3]])
 
 
 def skew_theory(robot: Robot, theta: ArrayLike) -> np.ndarray:

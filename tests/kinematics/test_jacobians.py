@@ -188,3 +188,20 @@ def test_columns_of_hinges_take_batches():
     for k in range(3):
         np.testing.assert_allclose(J[k, 3:].T, np.cross(w[k], p[k] - o[k]), rtol=0, atol=1e-14)
         np.testing.assert_array_equal(J[k, :3].T, w[k])
+
+
+@pytest.mark.parametrize("robot", robots.all().values(), ids=lambda r: r.name)
+def test_columns_one_by_one_are_the_body_jacobian(robot):
+    theta = np.random.default_rng(8).uniform(-1, 1, robot.n)
+    T, before = robot.fk(theta), np.concatenate([np.eye(4)[None], robot.displacements(theta)[:-1]])
+    found = []
+    for kind, S, D in zip(robot.joint_types, robot.S.T, before, strict=True):
+        w = S[:3] if kind == "revolute" else S[3:]
+        q = D @ [*np.cross(S[:3], S[3:]), 1]
+        found.append(jacobians.column(kind, D[:3, :3] @ w, q[:3], T))
+    np.testing.assert_allclose(np.transpose(found), robot.jacobian_body(theta), rtol=0, atol=1e-12)
+
+
+def test_a_kind_of_joint_that_is_none():
+    with pytest.raises(ValueError, match="'revolute' or 'prismatic', got 'hinge'"):
+        jacobians.column("hinge", [0, 0, 1], [0, 0, 0], np.eye(4))
