@@ -32,7 +32,7 @@ __all__ = [
 
 
 def column(kind: str, w: ArrayLike, q: ArrayLike, T: ArrayLike) -> np.ndarray:
-    """One column of J_b: the twist of the tool, seen from it, while one joint alone moves at 1 rad/s or 1 m/s.
+    """One column of J_b: the tool's twist, seen from it, while one joint alone moves at 1 rad/s or 1 m/s.
 
     kind "revolute" or "prismatic"; w (3,) its axis of length 1 and q (3,) a point on it, where they are now,
     and T (4, 4) the tool, all in the space frame -> (6,), (omega; v). A slide needs no point. Lynch & Park,

@@ -35,8 +35,8 @@ def the_exam(rng):
 
 
 def whole_exam(rng):
-    a1, d1, a2, d4 = (int(n) for n in rng.integers(1, 5, 4))
-    return [a1 + d4, 0, d1 + a2], 0, 0, [a1, d1, a2, d4]
+    a1, d1, a2, more = (int(n) for n in rng.integers(1, 5, 4))
+    return [a1 + a2 + more, 0, d1 + a2], 0, 0, [a1, d1, a2, a2 + more]
 
 
 def misses_p(args, value, right):

@@ -260,7 +260,12 @@ EXERCISES = [
         ),
         usual="where x and y differ in height along k",
         residual=_say.at_another_distance,
-        laws=(("x turned by each of your angles must be at the distance from y", _draw.keeps_the_distance),),
+        laws=(
+            (
+                "turning x by each of your angles must bring it to the distance from y",
+                _draw.keeps_the_distance,
+            ),
+        ),
         hints=(
             Hint(
                 "not_removed",
@@ -288,9 +293,9 @@ EXERCISES = [
             Edge("for whole numbers", _draw.whole_two_turns),
         ),
         usual="for axes that are not at right angles",
-        blocks=(Block("t1", np.s_[:, 0]), Block("t2", np.s_[:, 1])),
+        blocks=(Block("the angle t1", np.s_[:, 0]), Block("the angle t2", np.s_[:, 1])),
         residual=_say.two_turns_that_miss,
-        laws=(("x, turned by t2 about k2 and then by t1 about k1, must be y", _draw.turns_both),),
+        laws=(("turning x by t2 about k2 and then by t1 about k1 must give y", _draw.turns_both),),
         hints=(
             Hint(
                 "right_angles",

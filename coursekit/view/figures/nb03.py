@@ -17,7 +17,7 @@ def triangle() -> None:
     """Shoulder, elbow and P from the side, elbow up and down, with alpha, beta, phi and psi. No scale."""
     import matplotlib.pyplot as plt
 
-    _, axes = plt.subplots(1, 2, figsize=(9.6, 4.3), sharey=True, layout="constrained")
+    _, axes = plt.subplots(1, 2, figsize=(8.4, 3.7), sharey=True, layout="constrained")
     for ax, side, title in zip(axes, (1, -1), ("elbow up", "elbow down"), strict=True):
         _one_triangle(ax, side)
         ax.set_title(title, fontsize=10)
@@ -99,7 +99,7 @@ def elbows(lengths: ArrayLike, solutions: Iterable[Sequence[float] | np.ndarray]
         ax.plot(*arm.T, style, lw=4, color=palette(color), solid_joinstyle="round")
         ax.plot(*np.array([elbow, P]).T, ":", lw=1.2, color=palette(color))
         ax.plot(*elbow, "o", ms=9, color=palette(color))
-        ax.text(elbow[0] + 25 * side, elbow[1], f"elbow {elbow[1]:.1f} mm", color=palette(color), va="center",
+        ax.text(elbow[0] + 40 * side, elbow[1], f"elbow {elbow[1]:.1f} mm", color=palette(color), va="center",
                 ha="right" if side < 0 else "left")  # fmt: skip
     ax.plot([a1, P[0]], [d1, P[1]], "-.", lw=1, color=INK)
     ax.text((a1 + P[0]) / 2 + 12, (d1 + P[1]) / 2, "b", color=INK, fontsize=12, style="italic")
@@ -113,7 +113,7 @@ def meetings() -> None:
     """Subproblem 3 in the plane across the axis, and subproblem 2 on its sphere."""
     import matplotlib.pyplot as plt
 
-    both = plt.figure(figsize=(9.6, 4.2), layout="constrained")
+    both = plt.figure(figsize=(8.4, 3.8), layout="constrained")
     _triangle_across(both.add_subplot(1, 2, 1))
     _two_circles(both.add_subplot(1, 2, 2, projection="3d"))
     plt.show()
@@ -157,8 +157,10 @@ def _two_circles(ax):
     c, n = k1 @ k2, np.cross(k1, k2)
     a, b = np.linalg.solve([[1, c], [c, 1]], [k1 @ y, k2 @ x])
     g = np.sqrt((1 - a * a - b * b - 2 * a * b * c) / (n @ n))
-    u, v = np.mgrid[0 : 2 * np.pi : 25j, 0 : np.pi : 13j]
-    ax.plot_wireframe(np.cos(u) * np.sin(v), np.sin(u) * np.sin(v), np.cos(v), lw=0.3, color="#C5CBD3")
+    u, v = np.mgrid[0 : 2 * np.pi : 13j, 0 : np.pi : 25j]
+    ax.plot_wireframe(
+        np.cos(u) * np.sin(v), np.sin(u) * np.sin(v), np.cos(v), lw=0.5, color="#DDE1E6", ccount=0
+    )
     t = np.linspace(0, 2 * np.pi, 121)[:, None]
     for k, start, style in ((k2, x, "--"), (k1, y, "-")):
         circle = start * np.cos(t) + np.cross(k, start) * np.sin(t) + k * (k @ start) * (1 - np.cos(t))
@@ -169,7 +171,7 @@ def _two_circles(ax):
     near = a * k1 + b * k2 - g * n
     for point, name in (
         (1.5 * k1, "k1"),
-        (1.5 * k2, "k2"),
+        (1.75 * k2, "k2"),
         (1.15 * x, "x"),
         (1.15 * y, "y"),
         (1.2 * near, "z"),
@@ -203,16 +205,17 @@ def columns(theta: Sequence[float], lengths: Sequence[float], J: np.ndarray) -> 
     _show()
 
 
-def lap(turn: ArrayLike, q: np.ndarray) -> None:
-    """How far each joint is from where it began. turn (m,) in laps, q (m, n) in radians."""
-    ax = _axes((6.4, 3.6))
-    change = np.degrees(q - q[0])
-    for k, line in enumerate(change.T):
-        color, _ = STYLES[k % len(STYLES)]
-        ax.plot(turn, line, ls=("-", "--", "-.", ":")[k % 4], lw=1.4, color=palette(color))
-        ax.text(turn[-1] + 0.01, line[-1], f"{k + 1}", color=palette(color), fontsize=9, va="center")
+def drift(change: np.ndarray) -> None:
+    """How far each joint is from where it began, after every lap. change (laps, n) in radians."""
+    ax = _axes((6.4, 3.2))
+    laps, n = change.shape
+    for k, row in enumerate(np.degrees(change)):
+        place = np.arange(1, n + 1) + 0.26 * (k - (laps - 1) / 2)
+        label = f"after lap {k + 1}"
+        ax.bar(place, row, 0.24, color=palette("accent"), alpha=0.3 + 0.7 * k / (laps - 1), label=label)
     ax.axhline(0, lw=0.8, color=INK)
-    ax.set(xlabel="laps", ylabel="change of the joint [deg]", xlim=(0, turn[-1] + 0.06))
+    ax.set(xlabel="joint", ylabel="change of the joint [deg]", xticks=range(1, n + 1))
+    ax.legend(frameon=False)
     _show()
 
 
