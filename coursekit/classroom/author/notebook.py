@@ -123,8 +123,8 @@ def _pictures_with_fewer_colours(notebook: dict) -> dict:
             image = Image.open(io.BytesIO(base64.b64decode(output["data"]["image/png"])))
             if image.mode == "RGBA":
                 white = Image.new("RGBA", image.size, "white")
-                image = Image.alpha_composite(white, image).convert("RGB")
-                image.quantize(256, dither=Image.Dither.NONE).save(
+                plain = Image.alpha_composite(white, image).convert("RGB")
+                plain.quantize(256, dither=Image.Dither.NONE).save(
                     small := io.BytesIO(), "PNG", optimize=True
                 )
                 output["data"]["image/png"] = base64.b64encode(small.getvalue()).decode() + "\n"

@@ -71,6 +71,47 @@ def singular_map(robot: Robot, theta: ArrayLike, i: int, j: int, marks: Mapping[
     plt.show()
 
 
+def on_axis_1() -> None:
+    """The arm from the side with its wrist centre on axis 1: the higher solution solid, the lower dashed.
+
+    Not to scale, so that every length can be seen.
+    """
+    import matplotlib.pyplot as plt
+
+    a1, d1, a2, a3, d4, theta2 = 130, 330, 450, 110, 420, -1.05
+    _, ax = plt.subplots(figsize=(5.6, 4.6), layout="constrained")
+    elbow = np.array([a1 + a2 * np.cos(theta2), d1 - a2 * np.sin(theta2)])
+    delta, rho = np.arctan2(a3, d4), np.hypot(a3, d4)
+    bend = np.arccos(-elbow[0] / rho)
+    for t, style, color, where in (
+        (delta - bend, "-", "accent", "higher"),
+        (delta + bend, "--", "trace", "lower"),
+    ):
+        knee = elbow + a3 * np.array([np.sin(t), np.cos(t)])
+        P = knee + d4 * np.array([np.cos(t), -np.sin(t)])
+        ax.plot(*np.array([elbow, knee, P]).T, style, lw=4, color=palette(color), solid_joinstyle="round")
+        ax.plot(*np.array([elbow, P]).T, ":", lw=1.4, color=palette(color))
+        ax.plot(*P, "D", ms=8, color=palette(color))
+        ax.text(P[0] - 22, P[1], f"P, {where}", color=palette(color), va="center", ha="right")
+        along, across = np.array([np.cos(t), -np.sin(t)]), np.array([np.sin(t), np.cos(t)])
+        for (x, y), name in (
+            ((knee + P) / 2 + 28 * across, "$d_4$"),
+            ((elbow + P) / 2 - 26 * across, r"$\rho$"),
+            ((elbow + knee) / 2 - 30 * along, "$a_3$"),
+        ):
+            ax.text(x, y, name, color=palette(color), ha="center", va="center")
+    ax.plot(*np.array([[0, 0], [0, d1], [a1, d1], elbow]).T, lw=4, color="#8A929C", solid_joinstyle="round")
+    for joint, name in (((a1, d1), "axis 2"), (elbow, "axis 3")):
+        ax.plot(*joint, "o", ms=8, color=INK)
+        ax.text(joint[0] + 24, joint[1] - 8, name, color=INK, va="center")
+    ax.axvline(0, ls="-.", lw=1, color=INK)
+    ax.text(14, 8, "axis 1", color=INK)
+    ax.text(a1 / 2, d1 - 34, "$a_1$", color=INK, ha="center")
+    ax.text((a1 + elbow[0]) / 2 + 28, (d1 + elbow[1]) / 2 - 10, "$a_2$", color=INK)
+    ax.set(xlabel="r", ylabel="z", aspect="equal", xlim=(-190, 560), ylim=(-20, 1000), xticks=[], yticks=[])
+    plt.show()
+
+
 def lost_lines(robot: Robot, poses: Mapping[str, ArrayLike]) -> None:
     """The arm, its six axes (dashed) and the screw of the lost wrench. poses: title -> theta (6,)."""
     import matplotlib.pyplot as plt
@@ -108,15 +149,21 @@ def two_smallest(angles: ArrayLike, values: np.ndarray) -> None:
     plt.show()
 
 
-def rates_near(eps: ArrayLike, rates: np.ndarray, limits: np.ndarray) -> None:
-    """Joint rates over the distance from a singular pose. eps (k,), rates (k, n), limits (n,): log axes."""
+def rates_near(
+    distance: ArrayLike, rates: np.ndarray, limits: np.ndarray, joints: tuple[int, ...], what: str
+) -> None:
+    """Joint rates over the distance from a singular pose, log axes. distance (k,), rates (k, n), limits (n,).
+
+    joints: which to show, from 1, at most four; what: the distance in words, with its unit.
+    """
     import matplotlib.pyplot as plt
 
     _, ax = plt.subplots(figsize=(6.4, 3.6), layout="constrained")
-    for k, marker, color in ((1, "s", "z"), (2, "o", "accent"), (4, "^", "trace")):
-        ax.loglog(eps, np.abs(rates[:, k]), color=palette(color), marker=marker, ms=5, label=f"joint {k + 1}")
-        ax.axhline(limits[k], color=palette(color), lw=0.8, ls=":")
-    ax.set(xlabel="ε = θ3 − stretched angle [rad]", ylabel="joint rate [rad/s]")
+    for k, marker, color in zip(joints, "so^D", ("z", "accent", "trace", "axis"), strict=False):
+        rate = np.abs(rates[:, k - 1])
+        ax.loglog(distance, rate, color=palette(color), marker=marker, ms=5, label=f"joint {k}")
+        ax.axhline(limits[k - 1], color=palette(color), lw=0.8, ls=":")
+    ax.set(xlabel=what, ylabel="joint rate [rad/s]")
     ax.grid(alpha=0.3)
     ax.legend(frameon=False)
     plt.show()
