@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from coursekit import lie, robots, singularity, symbolic
+from coursekit import ik, lie, robots, singularity, symbolic
 from coursekit.classroom.author import notebook
 from tests.kinematics.conftest import GOLDEN_ROBOTS, load
 
@@ -92,6 +92,29 @@ def test_the_stored_factors_are_the_determinant():
     assert printed("three-factors") == "det J + det J12 det J21 = 0\n"
 
 
+def test_the_exam_by_hand():
+    assert "Matrix([[0, 0, 0]])" in printed("exam-position")
+    assert "p_n = (1.230, 0.000, 1.550) m" in printed("exam-position")
+    exam = SOURCES["S030 exam"]
+    rows = [re.split(r"\s{2,}", line.strip()) for line in printed("kawasaki").splitlines()[-4:]]
+    assert [row[0] for row in rows] == ["f+", "f-", "b+", "b-"]
+    expected = [exam["ik"][key] for key in ("f_plus", "f_minus", "b_plus", "b_minus")]
+    shown = np.array([row[2:5] for row in rows], float)
+    np.testing.assert_allclose(shown, np.degrees(expected), rtol=0, atol=6e-3)
+    assert float(rows[2][5]) == pytest.approx(exam["b_plus_q2_plus_2pi_deg"], abs=6e-3)
+    assert [row[-1] for row in rows] == ["yes"] * 4
+    assert len({line.split()[-1] for line in printed("exam-frames").splitlines()}) == 1, "one det for all"
+
+
+def test_theta2_is_that_of_the_four_arms(solved):
+    lengths, s030 = (0.15, 0.68, 0.87, 1.08), robots.kawasaki_s030()
+    for p in np.random.default_rng(3).uniform([-1.5, -1.5, 0.3], [1.5, 1.5, 2.0], (20, 3)):
+        for t1, t2, t3 in ik.arm(s030, p):
+            if np.isfinite(t2):
+                gap = solved.theta2_system(p, t1, t3, lengths) - t2
+                assert abs((gap + np.pi) % (2 * np.pi) - np.pi) < 1e-9
+
+
 def test_the_exam_determinant():
     stored = "".join(CELLS["exam-determinant"]["outputs"][1]["data"]["text/plain"])
     expected = "a_2*d_4*cos(theta_3)*(a_1 + a_2*cos(theta_2) + d_4*sin(theta_2 + theta_3))"
@@ -144,6 +167,33 @@ def test_joint_rates_at_the_boundary():
     lines = [line.split() for line in printed("rates").splitlines()[2:7]]
     assert [float(line[1]) for line in lines] == pytest.approx([1.5, 4.6, 15.2, 45.7, 152.4], abs=0.01)
     assert all(0.456 < float(line[2]) < 0.46 for line in lines), "they grow as 1 / eps"
+    assert "0.1 b / (a2 a) = 0.457" in printed("rates")
+
+
+def test_the_shoulder_flip():
+    """Joint 1 as 0.1 m/s over the distance; the fastest joint as in an independent computation."""
+    lines = [line.split() for line in printed("flip").splitlines()[2:7]]
+    assert [line[0] for line in lines] == ["10.00", "5.00", "1.66", "0.50", "0.17"]
+    assert all(line[1] == line[2] for line in lines)
+    np.testing.assert_allclose([float(line[3]) for line in lines[2:]], [78, 260, 779], rtol=0.02)
+
+
+def test_which_columns_of_table_5_1_span_less_than_they_are():
+    rows = [re.split(r"\s{2,}", line) for line in printed("five-cases").splitlines()[2:]]
+    assert [row[2:] for row in rows] == [
+        ["2", "1", "5"],
+        ["3", "2", "5"],
+        ["3", "3", "5"],
+        ["4", "3", "5"],
+        ["4", "3", "5"],
+        ["6", "5", "5"],
+    ]
+
+
+def test_the_lost_motion_at_the_stretched_elbow_depends_on_the_reference():
+    along, _, at_P, _, at_origin = printed("lost-used").splitlines()
+    assert along.partition(": ")[2] == at_P.partition(", v ")[2]
+    assert "omega (0.000, 0.000, 0.000)" in at_P and "omega (0.000, 0.000, 0.000)" not in at_origin
 
 
 def test_the_kr10_model_and_the_true_arm():
