@@ -131,7 +131,7 @@ QUESTIONS = [
         },
     ),
     Question(
-        name="hinge_column",
+        name="speed_by_a_hinge",
         draw=lambda rng: {
             "h": float(rng.choice([0.3, 0.4])),
             "x": float(rng.choice([0.5, 0.6])),
@@ -171,7 +171,7 @@ GOALS = {
         "wrist_angles",
     ],
     "list all solutions and test the limits": ["all_solutions", "whole_turn", "farthest"],
-    "write a column of the Jacobian": ["axis_down", "planar_3r", "jacobian_column", "hinge_column"],
+    "write a column of the Jacobian": ["axis_down", "planar_3r", "jacobian_column", "speed_by_a_hinge"],
     "search with Newton's method": ["newton_step"],
     "further: two more subproblems": ["subproblem2", "subproblem3"],
 }
