@@ -1,11 +1,17 @@
 """Questions whose numbers change, and the ticks of goals."""
 
+import importlib
 import types
+from collections import Counter
+from pathlib import Path
 
 import pytest
 
 from coursekit.classroom import ask, goals, question
 from coursekit.classroom.author import notebook
+from coursekit.classroom.course import the_course
+
+PAGES = sorted(Path(question.__file__).with_name("questions").glob("nb*.py"))
 
 LEVER = question.Question(
     name="lever",
@@ -100,3 +106,14 @@ def test_the_students_version_holds_no_answer():
     cells = [{"cell_type": "code", "metadata": {}, "source": 'ask("lever", draw=2).answer([0, -0.4])'}]
     (cell,) = notebook.student_version({"cells": cells})["cells"]
     assert cell["source"] == 'ask("lever", draw=2).answer(...)'
+
+
+def test_every_question_of_the_course_has_a_name_of_its_own_and_every_goal_its_parts():
+    course = the_course()
+    exercises = {exercise.name for unit in course.units for exercise in course.exercises(unit)}
+    modules = [importlib.import_module(f"coursekit.classroom.questions.{path.stem}") for path in PAGES]
+    names = [q.name for module in modules for q in module.QUESTIONS]
+    assert [name for name, count in Counter(names).items() if count > 1] == []
+    for module in modules:
+        wanted = {name for goal in module.GOALS.values() for name in goal}
+        assert wanted <= exercises | set(names), module.__name__
