@@ -53,7 +53,8 @@ def update(new: Path, folder: Path | None = None) -> str:
     if not contents:
         return f"{folder} holds this release already: nothing changed"
     _replace(folder, contents)
-    head = f"{folder}: version {after['version']} of {after['title']}, {before['version']} before"
+    was = f"{before['version']} before" if before["version"] != after["version"] else "corrected"
+    head = f"{folder}: version {after['version']} of {after['title']}, {was}"
     return "\n".join([head, *told, "`coursekit update --undo` brings the old one back"])
 
 

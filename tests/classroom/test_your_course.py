@@ -199,6 +199,7 @@ def test_a_slip_in_course_toml_names_file_and_field(folder, changes, says):
         ),
         ("exercises.py", "points=2", "points=", "SyntaxError"),
         ("exercises.py", "import numpy", "import nunpy", "ModuleNotFoundError"),
+        (".ipynb", '"points": 2', '"points": 5', "check-tip, metadata.nbgrader.points: 5 there, 2 in"),
         (
             ".ipynb",
             '"grade_id": "tip"',

@@ -16,6 +16,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from ..document import is_check as is_check
+from ..document import role as role
 from ..document import is_solution, read, tags, write
 
 STUB = "# your code here\nraise NotImplementedError"

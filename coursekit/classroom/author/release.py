@@ -52,7 +52,11 @@ def release(out: Path, course: Course | None = None, students: Path | None = Non
             _personal(mine, course, student)
             update.write_list(mine, course.title, course.version)
             told.append(_put(mine, out / student.id))
-    return "\n".join([*told, f"{len(people)} students: hand each the folder of their id"])
+    changes = [line for text in told for line in text.splitlines()[1:] if ": kept: " not in line]
+    heads = [text.splitlines()[0] for text in told]
+    return "\n".join(
+        [*heads, *dict.fromkeys(changes), f"{len(people)} students: hand each the folder of their id"]
+    )
 
 
 def _put(new: Path, out: Path) -> str:

@@ -63,6 +63,13 @@ def _cells(course: Course, unit: str, exercises: list[Exercise]) -> None:
                     f"{path}, metadata.nbgrader: one cell with grade_id {grade_id!r} and {what} is expected, "
                     f"there are {found.count(grade_id)}"
                 )
+        cell = next(c for c in cells if notebook.is_check(c) and notebook.role(c)["grade_id"] == grade_id)
+        points = notebook.role(cell).get("points", exercise.points)
+        if points != exercise.points:
+            raise ValueError(
+                f"{path}, {grade_id}, metadata.nbgrader.points: {points} there, {exercise.points} in "
+                f"{course.exercises_path(unit).name}"
+            )
     for cell in cells:
         try:
             if not notebook.is_solution(cell):
