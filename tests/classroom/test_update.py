@@ -55,6 +55,9 @@ def corrected(course, tmp_path, change, version="2", out="new"):
     solved = document.read(path)
     change(solved)
     document.write(path, solved)
+    if change is correct:  # the points stand in the exercise, too
+        asked = course / "01_first_arm_exercises.py"
+        asked.write_text(asked.read_text().replace("points=2", "points=5"))
     toml = (course / "course.toml").read_text().replace('version = "1"', f'version = "{version}"')
     (course / "course.toml").write_text(toml)
     release.release(tmp_path / out, read(course))

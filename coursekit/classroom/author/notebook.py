@@ -16,8 +16,8 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from ..document import is_check as is_check
-from ..document import role as role
 from ..document import is_solution, read, tags, write
+from ..document import role as role
 
 STUB = "# your code here\nraise NotImplementedError"
 
