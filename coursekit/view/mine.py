@@ -21,17 +21,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from coursekit.kinematics import lie
-from coursekit.kinematics.robot import Robot
-
-from . import text
 from .scene import Scene
+from .sketch import ROOT, Trouble
 
-ROOT = "/ck/yours"  # everything that is drawn by the student's numbers
-COLOR = "accent"  # and its one colour
-ZERO = 1e-9  # metres, radians: what differs by less is the same
 SLOW = 0.05  # seconds
-FAR = 4.0  # sizes of the scene: what is farther away is told and not drawn
+MEMORY = 100  # calls
 
 
 class Wanted(NamedTuple):
@@ -48,6 +42,10 @@ class Wanted(NamedTuple):
 
 _ARM = "your arm, translucent, beside the right one, and which frame is the first that is off"
 _AXES = "the axes of your screws on the arm, and what turns about them"
+_GHOSTS = "your solutions as translucent arms, and how far each misses the target"
+_STAND = "the arm at your angle, how far its wrist is from where it should be, and a button that drives there"
+_COLUMN = "the velocity of the tool by your first column that is off, beside the right one"
+_ATTITUDE = "the attitude that you get back from your numbers, beside that of the path"
 
 # opener of the explorer -> name of the exercise -> what is shown
 WANTED: dict[str, dict[str, Wanted]] = {
@@ -59,6 +57,40 @@ WANTED: dict[str, dict[str, Wanted]] = {
         "fk_poe": Wanted("S, M, theta", (4, 4), _ARM),
         "screws_from_dh": Wanted("rows, base", (6, None), _ARM),
     },
+    "explore_inverse": {
+        "wrist_centre": Wanted("T_sd, tool", (3,), "your wrist centre beside the right one"),
+        "elbow_solutions": Wanted("r, z, lengths", (2, 2), _GHOSTS),
+        "wrist_angles": Wanted("R", (2, 3), _GHOSTS),
+        "all_solutions": Wanted("T_sd, lengths, tool", (8, 6), _GHOSTS),
+        "newton_step": Wanted("J_b, T_sb, T_sd", (None,), "the way of the tool by your steps from the guess"),
+    },
+    "explore_singularities": {
+        "det_from_blocks": Wanted("J", (), "your det J beside the right one"),
+        "elbow_angle": Wanted("a3, d4", (), _STAND),
+        "shoulder_theta3": Wanted("theta2, lengths", (), _STAND),
+        "rank": Wanted("J, tol", (), "your rank beside the right one, as the arm moves"),
+        "lost_motion": Wanted(
+            "J", (6,), "your lost motion as arrows, and how much of it the joints can give"
+        ),
+    },
+    "explore_jacobians": {
+        "jacobian_space": Wanted("S, theta", (6, None), _COLUMN),
+        "jacobian_geometric": Wanted("axes, origins, tool", (6, None), _COLUMN),
+        "jacobian_by_differences": Wanted("fk, theta, step", (6, None), _COLUMN),
+        "ellipsoid": Wanted("J", ((3,), (3, 3)), "your ellipsoids over the right ones"),
+        "dls_step": Wanted(
+            "J, e, k", (None,), "the way of the tool by your steps, and a button that plays it"
+        ),
+    },
+    "explore_path": {
+        "tool_frames": Wanted("points, centre", (None, 4, 4), "your frames along the path"),
+        "quaternion": Wanted("R", (4,), _ATTITUDE),
+        "zyx": Wanted("R", (3,), _ATTITUDE),
+        "inside": Wanted("theta, lower, upper", (None,), "where your function judges the path differently"),
+        "largest_speed": Wanted(
+            "q, points, v_max", (), "the motion at your speed, and the joint that breaks its bound"
+        ),
+    },
     "explore_screws": {
         "screw_axis": Wanted("w, q", (6,), _AXES),
         "home_pose": Wanted("lengths", (4, 4), "your tool frame beside the arm's"),
@@ -67,10 +99,6 @@ WANTED: dict[str, dict[str, Wanted]] = {
         "S": Wanted("", (6, None), _AXES),  # read off a drawing
     },
 }
-
-
-class Trouble(Exception):
-    """Why there is nothing to see of a function; the text is for who wrote it."""
 
 
 class Mine:
@@ -86,17 +114,35 @@ class Mine:
         self.functions = _named(given, opener)
         self.said: dict[str, str] = {}
         self._took: dict[str, tuple[float, float]] = {}  # name -> seconds of the last look, when it ended
-        self._changed = ""
+        self._slow: set[str] = set()
+        self._changed, self._seconds = "", 0.0  # during a look
+        self._known: dict[tuple, tuple] = {}  # the last calls: what came of them need not be asked again
 
     def ask(self, name: str, *arguments: Any, finite: bool = True) -> Any:
         """What the function returns for copies of these arguments: an array, or a tuple of them.
 
         Raises Trouble where that is no answer of the exercise's shape. Without `finite` NaN is an answer.
         """
+        if not self.wanted[name].signature:
+            return _read(self.functions[name], self.wanted[name].shape, finite)
+        key = name, finite, *map(_key, arguments)
+        if key not in self._known:
+            if len(self._known) >= MEMORY:
+                self._known.clear()
+            try:
+                self._known[key] = *self._call(name, arguments, finite), None
+            except Trouble as told:
+                self._known[key] = None, "", told
+        value, changed, trouble = self._known[key]
+        self._changed = changed or self._changed
+        if trouble is not None:
+            raise trouble
+        return copy.deepcopy(value)
+
+    def _call(self, name, arguments, finite):
+        """The answer, and what is to be said of changed arguments."""
         wanted, function = self.wanted[name], self.functions[name]
-        if not wanted.signature:
-            return _read(function, wanted.shape, finite)
-        given = copy.deepcopy(arguments)
+        given, changed, begun = copy.deepcopy(arguments), "", time.monotonic()
         try:
             with _quietly():
                 value = function(*given)
@@ -104,11 +150,13 @@ class Mine:
             raise Trouble(f"not written yet. Write it, and you see {wanted.sees}") from None
         except Exception as error:
             raise Trouble(_where(error, function)) from None
+        finally:
+            self._seconds += time.monotonic() - begun
         names = wanted.signature.split(", ")
         for argument, before, after in zip(names, arguments, given, strict=False):
             if not _equal(before, after):
-                self._changed = f"; it changes its argument {argument} (here it gets copies)"
-        return _read(value, wanted.shape, finite)
+                changed = f"; it changes its argument {argument} (here it gets copies)"
+        return _read(value, wanted.shape, finite), changed
 
     def look(self, show: Callable[[str], str], scene: Scene, hurry: bool) -> bool:
         """Draw what every function says: show(name) draws and gives its words. Whether one has to wait.
@@ -120,10 +168,10 @@ class Mine:
             cost, ended = self._took.get(name, (0.0, 0.0))
             if hurry and cost > SLOW and time.monotonic() - ended < 4 * cost:
                 scene.remove(f"{ROOT}/{name}")
-                self.said[name] = "slow, more than 50 ms: shown when the slider rests"
+                self.said[name] = "shown when the slider rests"
                 waits = True
                 continue
-            begun, self._changed = time.monotonic(), ""
+            self._changed, self._seconds = "", 0.0
             try:
                 with np.errstate(all="ignore"):
                     said = show(name)
@@ -133,14 +181,16 @@ class Mine:
             except (ValueError, ArithmeticError, np.linalg.LinAlgError):
                 scene.remove(f"{ROOT}/{name}")
                 said = "what it returns cannot be drawn"
-            self._took[name] = time.monotonic() - begun, time.monotonic()
-            late = "; slow: more than 50 ms" if self._took[name][0] > SLOW else ""
-            self.said[name] = said + self._changed + late
+            self._took[name] = self._seconds, time.monotonic()
+            self.said[name] = said + self._changed
+            (self._slow.add if self._seconds > SLOW else self._slow.discard)(name)
         return waits
 
-    def words(self) -> list[str]:
-        """One line for each function."""
-        return [f"yours, {name}: {said}" for name, said in self.said.items()]
+    def words(self, timed: bool = True) -> list[str]:
+        """One line for each function; not `timed`: the same on every machine."""
+        late = self._slow if timed else ()
+        note = "; slow: more than 50 ms, so it is called less often while a slider moves"
+        return [f"yours, {name}: {said}{note if name in late else ''}" for name, said in self.said.items()]
 
 
 def _named(given: Any, opener: str) -> dict[str, Any]:
@@ -200,6 +250,13 @@ def _same_place(filename: str, home: str | None) -> bool:
     )
 
 
+def _key(argument: Any) -> Any:
+    """What tells one argument from another."""
+    if isinstance(argument, np.ndarray):
+        return argument.shape, argument.dtype.str, argument.tobytes()
+    return repr(argument)
+
+
 def _equal(before: Any, after: Any) -> bool:
     if isinstance(before, np.ndarray):
         return np.array_equal(before, after, equal_nan=before.dtype.kind == "f")
@@ -230,107 +287,3 @@ def _read(value: Any, shape: tuple, finite: bool) -> Any:
     if finite and not np.isfinite(array).all():
         raise Trouble("it returns numbers that are not finite (NaN or infinity)")
     return array
-
-
-# ---- how far apart
-
-
-def apart(T: np.ndarray, right: np.ndarray) -> tuple[float, float]:
-    """Distance in metres and angle in radians between two poses (4, 4); the angle is NaN if T is no pose."""
-    R = right[:3, :3].T @ T[:3, :3]
-    is_pose = np.allclose(R @ R.T, np.eye(3), atol=1e-6) and np.linalg.det(R) > 0
-    is_pose &= np.allclose(T[3], [0, 0, 0, 1], atol=1e-6)
-    angle = float(np.linalg.norm(lie.log3(R))) if is_pose else np.nan
-    return float(np.linalg.norm(T[:3, 3] - right[:3, 3])), angle
-
-
-def gap(distance: float, angle: float = 0.0) -> str:
-    """A gap in words: "12.3 mm and 4.5 deg", "below 1e-9".
-
-    >>> gap(0.0123, 0), gap(0, 1e-12), gap(0, np.nan)
-    ('12.3 mm', 'below 1e-9', 'no pose: the columns of R or the last row are not those of one')
-    """
-    if np.isnan(angle):
-        return "no pose: the columns of R or the last row are not those of one"
-    parts = [(1000 * distance, "mm")] if distance > ZERO else []
-    parts += [(float(np.degrees(angle)), "deg")] if angle > ZERO else []
-    return " and ".join(f"{size(x)} {unit}" for x, unit in parts) or "below 1e-9"
-
-
-def size(x: float) -> str:
-    """A gap's number: one decimal, or its power of ten where that would be 0.0."""
-    return text.number(x, 1) if abs(x) >= 0.05 else text.scientific(x)
-
-
-def chain(mine: np.ndarray, right: np.ndarray) -> tuple[int | None, str]:
-    """Which of the frames (n, 4, 4), the tool's last, is the first that is off, and the words for it."""
-    apart_by = [apart(T, correct) for T, correct in zip(mine, right, strict=True)]
-    off = [k for k, (distance, angle) in enumerate(apart_by) if not max(distance, angle) <= ZERO]
-    if not off:
-        return None, "every frame and the tool agree with the arm's, below 1e-9"
-    first, n = off[0], len(mine)
-    if first == n - 1:
-        return first, f"all frames before the tool are right; the tool is off by {_off(*apart_by[-1])}"
-    told = f"frame {first + 1} is the first that is off, by {_off(*apart_by[first])}"
-    return first, f"{told}; the tool is off by {_off(*apart_by[-1])}" if n - 1 in off else told
-
-
-def _off(distance, angle):
-    return f"{gap(distance, angle)} and {gap(distance)}" if np.isnan(angle) else gap(distance, angle)
-
-
-# ---- drawing
-
-
-class Sketch:
-    """What is drawn of one function, at a path of its own."""
-
-    def __init__(self, scene: Scene, name: str, label: str = "yours") -> None:
-        self.scene, self.path, self.label = scene, f"{ROOT}/{name}", label
-
-    def near(self, point: np.ndarray) -> bool:
-        """Whether a point (3,) is near enough to be drawn."""
-        return bool(np.abs(point).max(initial=0.0) < FAR * self.scene.size)
-
-    def arm(self, robot: Robot, links: np.ndarray) -> None:
-        """A translucent arm whose links stand at these displacements (n, 4, 4)."""
-        name = f"{self.path.removeprefix('/ck/')}/arm"
-        ghost = self.scene.robots.get(name)
-        if ghost is None or ghost.robot is not robot:
-            ghost = self.scene.robot(robot, np.zeros(robot.n), name, "ghost")
-            ghost.color = COLOR
-        ghost.links = links
-
-    def frame(self, key: str, T: np.ndarray, label: str | None = None) -> None:
-        """A frame at T (4, 4), all its axes in the student's colour."""
-        long = 0.1 * self.scene.size
-        path = f"{self.path}/{key}"
-        if path not in self.scene.parts:
-            self.scene.normals(path, np.zeros((3, 3)), long * np.eye(3), COLOR)
-        self.scene.point(f"{path}/name", np.zeros(3), self.label if label is None else label, COLOR)
-        self.scene[path].move(T)
-
-    def gap(self, key: str, a: np.ndarray, b: np.ndarray) -> None:
-        """A line from the right point to the student's, with its length."""
-        long = float(np.linalg.norm(b - a))
-        label = f"{size(1000 * long)} mm" if long > ZERO else ""
-        self.scene.line(f"{self.path}/{key}", a, b, COLOR, label)
-
-    def poses(self, robot: Robot, mine: np.ndarray, right: np.ndarray, at_zero: np.ndarray) -> str:
-        """The arm by the student's frames (n, 4, 4), the tool's last, beside the right ones; the words."""
-        first, words = chain(mine, right)
-        are_poses = not np.isnan([apart(*pair)[1] for pair in zip(mine, right, strict=True)]).any()
-        near = all(self.near(T[:3, 3]) for T in mine)
-        if not (are_poses and near):
-            self.scene.remove(self.path)
-            return words if near else f"{words}; too far away to be drawn (metres?)"
-        self.arm(robot, mine @ lie.inverse(at_zero))
-        self.frame("tool", mine[-1], f"{self.label} \N{CHECK MARK}" if first is None else None)
-        self.gap("gap", right[-1][:3, 3], mine[-1][:3, 3])
-        if first is None or first == len(mine) - 1:
-            self.scene.remove(f"{self.path}/first")
-            self.scene.remove(f"{self.path}/first_gap")
-        else:
-            self.frame("first", mine[first], f"{self.label} {first + 1}")
-            self.gap("first_gap", right[first][:3, 3], mine[first][:3, 3])
-        return words

@@ -108,10 +108,8 @@ class Panel(ipywidgets.VBox):
         self.motion: Motion | None = None
         self._played = False  # whether it ran when the page last said so
         self._stale: list = []  # plots that wait until a drag ends
-        self.live, self.late = (
-            False,
-            False,
-        )  # more values follow at once; the scene waits for the last
+        self.live = False  # more values follow at once
+        self.late = False  # and the scene waits for the last of them
         named = [
             control for control in (*controls, *below) if hasattr(control, "name")
         ]  # stock widgets are not

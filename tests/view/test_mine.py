@@ -13,14 +13,16 @@ from PIL import Image
 from coursekit import robots, view
 from coursekit.classroom.course import the_course
 from coursekit.classroom.mistakes import Solved
-from coursekit.view import mine, reopened
+from coursekit.view import mine, reopened, sketch
 
 KR6 = robots.kuka_kr6()
 ABB = robots.abb_irb1200()
 SHOWN = [(opener, name) for opener, names in mine.WANTED.items() for name in names]
 FUNCTIONS = [(opener, name) for opener, name in SHOWN if mine.WANTED[opener][name].signature]
-# for which arm a function is opened, where it is not for every arm
-FOR = {"home_pose": ABB}
+# for which arm a function is opened, where it is not the KR6
+FOR = {"home_pose": ABB, "explore_path": ABB}
+# the share of wrong answers that no pose of the explorer brings out; of every other function a third
+RARE = {"rank": 0.4, "quaternion": 0.65, "inside": 0.7}
 THETA = np.array([0.3, -1.0, 1.2, 0.4, 0.5, 0.6])
 
 
@@ -47,13 +49,20 @@ def wrong(name):
     return found
 
 
+@pytest.fixture(autouse=True)
+def no_plots(monkeypatch):
+    """They have nothing to do with what is tested here, and take most of the time."""
+    monkeypatch.setattr(view.Plot, "refresh", lambda plot, values: None)
+
+
 @pytest.fixture
 def opened():
     """Open an explorer with functions of the student; closed after the test."""
     panels = []
 
     def open_one(opener, functions, **more):
-        robot = FOR.get(next(iter(functions)), KR6) if isinstance(functions, dict) else KR6
+        name = next(iter(functions)) if isinstance(functions, dict) else ""
+        robot = FOR.get(opener) or FOR.get(name, KR6)
         panels.append(getattr(view, opener)(robot, mine=functions, **more))
         return panels[-1]
 
@@ -62,10 +71,12 @@ def opened():
         panel.close()
 
 
-def move(panel):
-    """Some other values, as a person would set them."""
-    values = {"theta": THETA} if "theta" in panel.values else {"turn": 0.7}
-    panel.set(**values)
+def move(panel, k=0):
+    """Some other values, as a person would set them; others for every k."""
+    turned = np.array([0.4, 0.3, 0.6, 0.2, 0.3, -0.4]) + 0.003 * k
+    values = {"theta": THETA + 0.003 * k, "turn": 0.7 + 0.003 * k, "pose": turned}
+    values |= {"bounds": "the robot's own" if k % 2 else "2 rad/s each", "damping": 0.2 + 0.01 * k}
+    panel.set(**{name: value for name, value in values.items() if name in panel.values})
 
 
 def said(panel, name):
@@ -73,6 +84,11 @@ def said(panel, name):
     begin = f"yours, {name}: "
     (line,) = [line for line in panel.line.value.splitlines() if line.startswith(begin)]
     return line.removeprefix(begin)
+
+
+def agrees(words):
+    good = ("below 1e-", "which is right", "judged rightly", "nothing is lost here")
+    return "off" not in words and any(told in words for told in good)
 
 
 def pink(panel):
@@ -125,21 +141,24 @@ def test_what_a_function_returned_is_no_function():
 def test_a_right_function_agrees_everywhere(opened, opener, name):
     panel = opened(opener, {name: right(name)})
     for _ in range(2):
-        assert said(panel, name).endswith("below 1e-9")
+        assert agrees(said(panel, name))
         move(panel)
 
 
 @pytest.mark.parametrize(("opener", "name"), FUNCTIONS)
 def test_no_wrong_function_agrees_and_none_stops_the_view(opened, opener, name):
-    """Every wrong answer of the collection; what is off only in rare cases agrees here, rightly."""
+    """Every wrong answer of the collection; what is off only in rare cases agrees where the arm stands."""
     agree = []
     current = [lambda *_: None]
     panel = opened(opener, {name: lambda *arguments: current[0](*arguments)})
-    for label, current[0] in wrong(name).items():
-        move(panel)
-        if said(panel, name).endswith("below 1e-9"):
+    for k, (label, current[0]) in enumerate(wrong(name).items()):
+        panel._update.__self__.mine._known.clear()  # another function
+        move(panel, k)
+        if name == "rank":  # elsewhere it is 6
+            panel.set(theta=np.zeros(6))
+        if agrees(said(panel, name)):
             agree.append(label)
-    assert len(agree) <= len(wrong(name)) / 3, agree
+    assert len(agree) <= len(wrong(name)) * RARE.get(name, 0.34), agree
 
 
 @pytest.mark.parametrize(("opener", "name"), FUNCTIONS)
@@ -150,7 +169,7 @@ def test_a_function_that_is_not_written_yet_says_what_will_be_seen(opened, opene
     panel = opened(opener, {name: unwritten})
     sees = mine.WANTED[opener][name].sees
     assert said(panel, name) == f"not written yet. Write it, and you see {sees}"
-    assert mine.ROOT not in "".join(panel.scene.parts)
+    assert sketch.ROOT not in "".join(panel.scene.parts)
 
 
 def raises(*arguments):
@@ -201,11 +220,11 @@ def test_no_answer_stops_any_explorer(opened, opener, name):
         answers.append(parts if len(parts) > 1 else parts[0])
     queue = [None]
     panel = opened(opener, {name: lambda *_: queue[-1]})
-    for answer in answers:
+    for k, answer in enumerate(answers):
         queue.append(answer)
-        move(panel)
-        assert said(panel, name) not in ("", "every frame and the tool agree with the arm's, below 1e-9")
-        panel._repr_mimebundle_()
+        move(panel, k)
+        assert said(panel, name) and not agrees(said(panel, name))
+        view.png(panel.scene, 90, 60)
 
 
 def test_a_function_that_works_again_is_seen_again(opened):
@@ -215,9 +234,9 @@ def test_a_function_that_works_again_is_seen_again(opened):
     panel = opened("explore", fk_poe)
     panel.set(theta=[2, 0, 0, 0, 0, 0])
     assert said(panel, "fk_poe") == "line 2 of fk_poe raises ZeroDivisionError: division by zero"
-    assert not any(path.startswith(mine.ROOT) for path in panel.scene.parts)
+    assert not any(path.startswith(sketch.ROOT) for path in panel.scene.parts)
     panel.set(theta=[0.5, 0, 0, 0, 0, 0])
-    assert "off" in said(panel, "fk_poe") and any(p.startswith(mine.ROOT) for p in panel.scene.parts)
+    assert "off" in said(panel, "fk_poe") and any(p.startswith(sketch.ROOT) for p in panel.scene.parts)
 
 
 def test_a_function_that_changes_its_arguments_gets_copies(opened):
@@ -241,13 +260,14 @@ def test_a_slow_function_waits_while_a_slider_moves_and_comes_at_its_end(opened)
         return M
 
     panel = opened("explore", fk_poe)
-    assert said(panel, "fk_poe").endswith("; slow: more than 50 ms")
+    assert said(panel, "fk_poe").endswith("called less often while a slider moves")
+    assert "slow" not in repr(panel), "that would be another line on another machine"
     slider, before = panel._controls["theta"].sliders[0], len(asked)
     for degrees in range(1, 21):
         slider.set_state({"value": float(degrees), "live": True})
     assert len(asked) - before < 20 * KR6.n / 2, "less often"
-    assert said(panel, "fk_poe") == "slow, more than 50 ms: shown when the slider rests"
-    assert mine.ROOT not in "".join(panel.scene.parts), "nothing of another pose is left"
+    assert said(panel, "fk_poe").startswith("shown when the slider rests; slow: more than 50 ms")
+    assert sketch.ROOT not in "".join(panel.scene.parts), "nothing of another pose is left"
     slider.set_state({"live": False})
     assert asked[-1] == pytest.approx(np.radians(20)) and "off" in said(panel, "fk_poe")
 
@@ -272,7 +292,7 @@ def test_the_arm_stands_where_the_function_says(opened):
     panel = opened("explore", fk_poe, theta=THETA)
     assert said(panel, "fk_poe").startswith("frame 3 is the first that is off, by 68.8 deg; the tool is off")
     still = KR6.displacements(THETA * [1, 1, 0, 1, 1, 1])
-    worlds = panel.scene.worlds([f"{mine.ROOT}/fk_poe/arm/{k}" for k in range(1, 7)])
+    worlds = panel.scene.worlds([f"{sketch.ROOT}/fk_poe/arm/{k}" for k in range(1, 7)])
     np.testing.assert_allclose(list(worlds.values()), still, atol=1e-12)
 
 
@@ -283,9 +303,9 @@ def test_the_chosen_joint_turns_the_rest_of_the_arm_about_the_axis_of_the_studen
     panel = opened("explore_screws", screw_axis)
     panel.set(turn=np.pi)
     axis_is_at = np.array([-0.025, 0, -0.4])
-    (moved,) = panel.scene.worlds([f"{mine.ROOT}/screw_axis/arm/2"]).values()
+    (moved,) = panel.scene.worlds([f"{sketch.ROOT}/screw_axis/arm/2"]).values()
     np.testing.assert_allclose(moved @ [*axis_is_at, 1], [*axis_is_at, 1], atol=1e-12)
-    (still,) = panel.scene.worlds([f"{mine.ROOT}/screw_axis/arm/1"]).values()
+    (still,) = panel.scene.worlds([f"{sketch.ROOT}/screw_axis/arm/1"]).values()
     np.testing.assert_array_equal(still, np.eye(4))
 
 
@@ -318,7 +338,7 @@ def test_the_stored_line_holds_the_verdict_and_still_gives_a_page(opened):
     line = repr(panel)
     assert line.endswith("; yours, fk_poe: every frame and the tool agree with the arm's, below 1e-9")
     assert "translucent" not in line
-    assert f'"{mine.ROOT}"' in view.to_html(panel), "hidden where no kernel can compute it for another pose"
+    assert f'"{sketch.ROOT}"' in view.to_html(panel), "hidden where no kernel can compute it for another pose"
     assert reopened.page_of(line).startswith("<!DOCTYPE html>")
 
 

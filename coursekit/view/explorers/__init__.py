@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
-from coursekit.view import mine
+from coursekit.view import mine, sketch
 from coursekit.view.controls import Control, JointSliders, Slider, Sliders
 from coursekit.view.panel import Panel
 from coursekit.view.scene import Scene
@@ -73,11 +73,20 @@ class Explorer:
         """
         raise NotImplementedError
 
+    def sketch(self, name: str) -> sketch.Sketch:
+        """What draws for the student's function of this name."""
+        several = len(self.mine.functions) > 1
+        return sketch.Sketch(self.scene, name, f"yours: {name}" if several else "yours")
+
+    def more(self) -> Sequence[Control]:
+        """The controls that the student's functions bring along."""
+        return []
+
     def _show(self, values):
         self.update(values)
         live = self.panel is not None and self.panel.live
         waits = self.mine.look(lambda name: self.yours(name, values), self.scene, live)
-        self.scene.said = self.mine.words()
+        self.scene.said = self.mine.words(timed=False)
         if waits and self.panel:
             self.panel.late = True
 
@@ -86,7 +95,7 @@ class Explorer:
 
     def open(self, height: int, theta: ArrayLike | None = None) -> Panel:
         """The panel, `height` pixels of picture, the arm at theta (n,) where that is given."""
-        controls, below = self.controls(), self.below()
+        controls, below = [*self.controls(), *self.more()], self.below()
         if theta is not None:
             self.start_at(np.asarray(theta, float))
         self.panel = Panel(
@@ -99,6 +108,6 @@ class Explorer:
             self.title,
             height,
             drivers=self.drivers,
-            computed=[*self.computed, mine.ROOT],
+            computed=[*self.computed, sketch.ROOT],
         )
         return self.panel

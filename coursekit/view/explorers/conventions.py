@@ -10,8 +10,8 @@ from coursekit.kinematics import dh, lie, robots
 from coursekit.kinematics.robot import Robot
 from coursekit.view.controls import Choice, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer
-from coursekit.view.mine import ROOT, Sketch, Trouble
 from coursekit.view.panel import Panel
+from coursekit.view.sketch import ROOT, Trouble
 
 
 def explore(
@@ -118,8 +118,7 @@ class _Conventions(Explorer):
             "fk_poe": self._by_screws,
             "screws_from_dh": self._by_rows,
         }[name]
-        sketch = Sketch(self.scene, name, "yours" if len(self.mine.functions) == 1 else f"yours: {name}")
-        return sketch.poses(self.robot, *frames(name, values["theta"]))
+        return self.sketch(name).poses(self.robot, *frames(name, values["theta"]))
 
     def _by_screws(self, name, theta):
         """Mine, right, at zero. Link k moves by the first k screws from where its frame stands at zero."""

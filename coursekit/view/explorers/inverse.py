@@ -1,12 +1,15 @@
 """Notebook 03: every configuration that reaches a pose, and the one Newton's method finds from a guess."""
 
+from collections.abc import Callable
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from coursekit.kinematics import ik, robots, rotations
 from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Action, Slider, Sliders, Table, Toggle, joint_sliders
-from coursekit.view.explorers import Explorer
+from coursekit.view.explorers import Explorer, yours
 from coursekit.view.paint import PALETTE
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
@@ -17,7 +20,12 @@ GUESS = (-1.0, -2.0, 1.0, 0.0, 0.3, 0.0)
 STEPS = 50
 
 
-def explore_inverse(robot: Robot | None = None, height: int = 470) -> Panel:
+def explore_inverse(
+    robot: Robot | None = None,
+    height: int = 470,
+    target: ArrayLike | None = None,
+    mine: Callable | list | dict | None = None,
+) -> Panel:
     """Open the explorer of inverse kinematics.
 
     Six sliders say where the tool should be. The branch chosen in the table is drawn solid, every other
@@ -30,18 +38,23 @@ def explore_inverse(robot: Robot | None = None, height: int = 470) -> Panel:
     ----------
     robot : Robot, optional
         An arm with an analytic solution (`ik.analytic`); the KUKA KR6 without it. ValueError for any other.
+    target : (4, 4), optional
+        Where the tool should be at first.
+    mine : function, list or dict of functions, optional
+        What you wrote, beside what is right: wrist_centre, elbow_solutions, wrist_angles, all_solutions,
+        newton_step (see `coursekit.view.mine`). ValueError for any other name.
     """
-    return _Inverse(robots.kuka_kr6() if robot is None else robot).open(height)
+    return _Inverse(robots.kuka_kr6() if robot is None else robot, target, mine).open(height)
 
 
-class _Inverse(Explorer):
+class _Inverse(yours.Inverse, Explorer):
     """The target, its solutions, the branch that is shown and Newton's run."""
 
     name, title, opener = "inverse", "Explorer of inverse kinematics", "explore_inverse"
 
-    def __init__(self, robot):
-        super().__init__(robot)
-        self.T = robot.fk(np.resize(CONFIGURATION, robot.n))
+    def __init__(self, robot, target, mine):
+        super().__init__(robot, mine)
+        self.T = robot.fk(np.resize(CONFIGURATION, robot.n)) if target is None else np.array(target, float)
         solutions = ik.analytic(robot, self.T)  # refuses arms without an analytic solution
         self.chosen = int(solutions.nearest(np.resize(CONFIGURATION, robot.n)))
         self.shown = _half_turns(solutions.turned)[self.chosen]
@@ -112,7 +125,11 @@ class _Inverse(Explorer):
 
     def draw_ghosts(self, wanted):
         """Exactly these translucent arms. wanted: name -> configuration."""
-        present = {name: arm for name, arm in self.scene.robots.items() if arm.style == "ghost"}
+        present = {
+            name: arm
+            for name, arm in self.scene.robots.items()
+            if arm.style == "ghost" and arm.color == "ghost"
+        }
         for name in present.keys() - wanted.keys():
             present[name].remove()
         for name, theta in wanted.items():

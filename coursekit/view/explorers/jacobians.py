@@ -1,6 +1,6 @@
 """Notebook 05: ellipsoids at the tool, one Jacobian by four methods, Newton against damped least squares."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 
 import numpy as np
@@ -10,7 +10,7 @@ from coursekit.kinematics import checks, ik, jacobians, robots, singularity
 from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Action, Slider, Toggle, joint_sliders
-from coursekit.view.explorers import Explorer
+from coursekit.view.explorers import Explorer, yours
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
 
@@ -19,7 +19,7 @@ NEARLY_ZERO = 0.05  # rad or m; the start of every other arm
 STEPS = 50
 SCALE = {"linear": 0.3, "angular": 0.1}  # on a stage of 1 m
 UNIT = {"linear": "m/s", "angular": "rad/s"}
-COLOR = {"linear": "trace", "angular": "accent"}
+COLOR = {"linear": "trace", "angular": "axis"}
 CAPTION = (
     "How far the joints turn in each step towards {d}: Newton (circles) leaps where the arm is nearly "
     "singular, damped least squares (squares) does not."
@@ -32,7 +32,11 @@ METHODS = {
 
 
 def explore_jacobians(
-    robot: Robot | None = None, height: int = 470, poses: Mapping[str, ArrayLike] | None = None
+    robot: Robot | None = None,
+    height: int = 470,
+    poses: Mapping[str, ArrayLike] | None = None,
+    theta: ArrayLike | None = None,
+    mine: Callable | list | dict | None = None,
 ) -> Panel:
     """Open the explorer of Jacobian methods.
 
@@ -47,20 +51,25 @@ def explore_jacobians(
     poses : mapping of name -> theta (n,), optional
         Configurations with a name, each with a button that drives the arm there; beyond the limits, too, and
         the sliders say so.
+    theta : (n,), optional
+        Where the arm stands at first, radians and metres.
+    mine : function, list or dict of functions, optional
+        What you wrote, beside what is right: jacobian_space, jacobian_geometric, jacobian_by_differences,
+        ellipsoid, dls_step (see `coursekit.view.mine`). ValueError for any other name.
     """
     robot = robots.franka_panda() if robot is None else robot
-    named = {name: checks.joint_angles(theta, robot.n, robot.name) for name, theta in (poses or {}).items()}
-    return _Jacobians(robot, named).open(height)
+    named = {name: checks.joint_angles(pose, robot.n, robot.name) for name, pose in (poses or {}).items()}
+    return _Jacobians(robot, named, mine).open(height, theta)
 
 
-class _Jacobians(Explorer):
+class _Jacobians(yours.Jacobians, Explorer):
     """The ellipsoids of the arm as it stands; Newton and damped least squares from there to the target."""
 
     name, title, opener = "jacobians", "Explorer of Jacobian methods", "explore_jacobians"
     computed = ("/ck/linear", "/ck/angular")
 
-    def __init__(self, robot, poses):
-        super().__init__(robot)
+    def __init__(self, robot, poses, mine):
+        super().__init__(robot, mine)
         self.poses = poses
         goal = robot.home
         if (
@@ -76,12 +85,16 @@ class _Jacobians(Explorer):
         # metres drawn for 1 m/s and for 1 rad/s; rounded, so that the text is exact
         self.scale = {part: round(scale * self.scene.size, 2) for part, scale in SCALE.items()}
 
+    def start_at(self, theta):
+        super().start_at(theta)
+        self.start = theta
+
     def controls(self):
         self.joints = joint_sliders(self.robot, self.near)
         return [
             self.joints,
             Toggle("linear", "linear ellipsoid (teal)", start=True),
-            Toggle("angular", "angular ellipsoid (pink)"),
+            Toggle("angular", "angular ellipsoid (violet)"),
             Slider("damping", 0.1, 0.01, 1.0, step=0.01, label="damping k"),
             Action("bent", "home pose", lambda: self.panel.set(theta=self.robot.home)),
             Action("near", "near the singularity", lambda: self.panel.set(theta=self.near)),
@@ -99,7 +112,7 @@ class _Jacobians(Explorer):
     def update(self, values):
         if values["damping"] != self.damping:  # another run, from the same start
             self.damping = values["damping"]
-            self.joints.put(self.start)
+            self.joints.show(self.start)
         self.arm.theta = self.joints.get()
         if self.frame is None or not self.running:
             self.start = self.arm.theta

@@ -1,5 +1,7 @@
 """Notebook 06: an arm that draws a letter S on a sphere, every way it can, as fast as its joints allow."""
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -7,7 +9,7 @@ from coursekit.kinematics import ik, path, robots
 from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Choice, Table, Toggle
-from coursekit.view.explorers import Explorer
+from coursekit.view.explorers import Explorer, yours
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
 
@@ -22,7 +24,12 @@ CAPTION = (
 )
 
 
-def explore_path(robot: Robot | None = None, points: ArrayLike | None = None, height: int = 470) -> Panel:
+def explore_path(
+    robot: Robot | None = None,
+    points: ArrayLike | None = None,
+    height: int = 470,
+    mine: Callable | list | dict | None = None,
+) -> Panel:
     """Open the explorer of a path: a curve on a sphere with its outward normals, and the arm that follows it.
 
     The buttons under the picture play, pause and scrub the motion, in real time at the largest speed that
@@ -36,17 +43,20 @@ def explore_path(robot: Robot | None = None, points: ArrayLike | None = None, he
     points : (m, 3), optional
         Another curve on the sphere of radius 0.5 m about (0, 0, 0.5), for instance from `path.load_points`;
         the letter S without it. ValueError where the arm cannot follow the curve in any way.
+    mine : function, list or dict of functions, optional
+        What you wrote, beside what is right: tool_frames, quaternion, zyx, inside, largest_speed (see
+        `coursekit.view.mine`). ValueError for any other name.
     """
-    return _Path(robots.abb_irb1200() if robot is None else robot, points).open(height)
+    return _Path(robots.abb_irb1200() if robot is None else robot, points, mine).open(height)
 
 
-class _Path(Explorer):
+class _Path(yours.Path, Explorer):
     """The arm on the path: all branches at every sampling asked for so far, and the one that is shown."""
 
     name, title, opener = "path", "Explorer of the path", "explore_path"
 
-    def __init__(self, robot, curve):
-        super().__init__(robot)
+    def __init__(self, robot, curve, mine):
+        super().__init__(robot, mine)
         self.curve = curve
         self.known = {}  # number of points -> points, q, points reached, points inside the limits
         n = POINTS[0]

@@ -9,8 +9,8 @@ from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Choice, Slider
 from coursekit.view.explorers import Explorer
-from coursekit.view.mine import ROOT, ZERO, Sketch, Trouble, apart, gap, size
 from coursekit.view.panel import Panel
+from coursekit.view.sketch import ROOT, ZERO, Trouble, apart, gap, size
 
 
 def explore_screws(
@@ -100,7 +100,7 @@ class _Screws(Explorer):
     # -- the axes by the student's functions
 
     def yours(self, name, values):
-        sketch = Sketch(self.scene, name, "yours" if len(self.mine.functions) == 1 else f"yours: {name}")
+        sketch = self.sketch(name)
         if name == "home_pose":
             return self._home(sketch)
         S, i = self._screws(name), values["joint"]

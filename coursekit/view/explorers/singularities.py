@@ -1,5 +1,6 @@
 """Notebook 04: det J and its factors live, what is lost, and a map of the singularities over two joints."""
 
+from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -9,10 +10,11 @@ from coursekit.kinematics import robots, singularity
 from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Action, Choice, Toggle, joint_sliders
-from coursekit.view.explorers import Explorer
+from coursekit.view.explorers import Explorer, yours
 from coursekit.view.figures import nb04
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
+from coursekit.view.sketch import ROOT
 
 UNITS = {"wrist": "", "elbow": " m^2", "shoulder": " m"}
 JOINTS = {f"θ{k + 1}": k for k in range(1, 5)}  # det J depends on no other joint
@@ -23,7 +25,12 @@ CAPTION = (
 NEAR = 0.05  # relative factor below which a singularity is called near: about 3 degrees
 
 
-def explore_singularities(robot: Robot | None = None, height: int = 470) -> Panel:
+def explore_singularities(
+    robot: Robot | None = None,
+    height: int = 470,
+    theta: ArrayLike | None = None,
+    mine: Callable | list | dict | None = None,
+) -> Panel:
     """Open the explorer of singularities.
 
     Sliders move the arm. The text gives det J, its three factors, the smallest singular value, the rank and
@@ -37,18 +44,23 @@ def explore_singularities(robot: Robot | None = None, height: int = 470) -> Pane
     robot : Robot, optional
         An arm whose det J has the three factors (`singularity.factors`); ValueError for any other. Without it
         the explorer offers every such arm of the catalogue.
+    theta : (n,), optional
+        Where the arm stands at first, radians and metres.
+    mine : function, list or dict of functions, optional
+        What you wrote, beside what is right: elbow_angle, shoulder_theta3 (with buttons that drive there),
+        lost_motion, rank, det_from_blocks (see `coursekit.view.mine`). ValueError for any other name.
     """
     arms = [arm for arm in robots.all().values() if _has_factors(arm)] if robot is None else [robot]
     singularity.factors(arms[0], arms[0].home)  # refuses an arm without the three factors
-    return _Singularities(arms).open(height)
+    return _Singularities(arms, mine).open(height, theta)
 
 
-class _Singularities(Explorer):
+class _Singularities(yours.Singularities, Explorer):
     name, title, opener = "singularities", "Explorer of singularities", "explore_singularities"
     computed = ("/ck/lost", "/ck/meets_all")
 
-    def __init__(self, arms):
-        super().__init__(arms[0])
+    def __init__(self, arms, mine):
+        super().__init__(arms[0], mine)
         self.arms = {arm.name: arm for arm in arms}
         self.joints = joint_sliders(self.robot, _start(self.robot))
         self.upwards = Choice("up", JOINTS, "θ3", "map, upwards")
@@ -76,6 +88,7 @@ class _Singularities(Explorer):
         """The arm, and each joint axis as a long line that moves with its link."""
         self.robot, scene = robot, self.scene
         scene.remove("/ck/robot")
+        scene.remove(ROOT)
         # the camera leaves room for the stretched arm
         self.arm = scene.robot(robot, nearest(robot, _start(robot), "elbow"))
         origins = robot.link_frames(np.zeros(robot.n))[:, :3, 3]
@@ -205,11 +218,11 @@ def _show_loss(scene, robot, theta, lost, line):
     """Arrows of what is lost, at the wrist, and the line that meets all axes where there is one."""
     wrist, (moment, force, pitch) = _wrist(robot, theta), _loss(robot, theta)
     what = "lost" if singularity.rank(robot, theta) < 6 else "weakest"
-    for name, vector, color in (("force", force, "accent"), ("moment", moment, "trace")):
+    for name, vector, color in (("force", force, "ghost"), ("moment", moment, "trace")):
         long = 0.35 * scene.size * vector if lost and np.linalg.norm(vector) > 1e-6 else np.zeros(3)
         scene.arrow(f"/ck/lost/{name}", wrist, long, color, f"{what}: {name}")
     wrench = singularity.lost_wrench(robot, theta)
     there = line and what == "lost" and abs(pitch) < 1e-6
     middle = wrench.point + wrench.direction * (wrench.direction @ (wrist - wrench.point)) if there else wrist
     ends = middle + np.outer([-1.1, 0.5], wrench.direction if there else np.zeros(3)) * scene.size
-    scene.line("/ck/meets_all", *ends, "accent", "meets all six axes", 0.004 * scene.size)
+    scene.line("/ck/meets_all", *ends, "ghost", "meets all six axes", 0.004 * scene.size)

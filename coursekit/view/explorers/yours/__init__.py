@@ -1,0 +1,12 @@
+"""What the student's functions draw in the explorers of notebooks 03 to 06, and what the text says of them.
+
+Each class is a part of one explorer: `yours(name, values)` is called after its `update`, draws by a `Sketch`
+and gives the words; `more` are the controls that a function brings along.
+"""
+
+from .inverse import Inverse
+from .jacobians import Jacobians
+from .path import Path
+from .singularities import Singularities
+
+__all__ = ["Inverse", "Jacobians", "Path", "Singularities"]

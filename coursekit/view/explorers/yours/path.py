@@ -1,0 +1,124 @@
+"""Notebook 06: the student's frames along the path, their attitudes, limits and speed."""
+
+import numpy as np
+
+from coursekit.kinematics import path, rotations
+from coursekit.view import text
+from coursekit.view.controls import Action
+from coursekit.view.sketch import ZERO, Trouble, apart, gap, size
+
+FRAMES = 13  # of the path that are drawn
+SAMPLES = 51  # attitudes that are made again
+MARKS = 20  # points at most that are marked
+BACK = 1e-7  # rad; of a turn near 0 half the digits are lost
+
+
+class Path:
+    """Notebook 06: the student's frames along the path, their attitudes, limits and speed."""
+
+    def more(self):
+        self.speed = None
+        wanted = "largest_speed" in self.mine.functions
+        return [Action("mine", "play at your speed", self._play)] if wanted else []
+
+    def yours(self, name, values):
+        sketch = self.sketch(name)
+        return getattr(self, f"_{name}" if name in ("tool_frames", "inside", "largest_speed") else "_turn")(
+            sketch, name
+        )
+
+    def _tool_frames(self, sketch, name):
+        right = path.frames(self.points)
+        mine = self.mine.ask(name, self.points, path.SPHERE_CENTER)
+        if mine.shape != right.shape:
+            raise Trouble(f"it returns {len(mine)} frames for {len(right)} points")
+        distance, angle = apart(mine, right)
+        some = np.linspace(0, len(mine) - 1, FRAMES).round().astype(int)
+        drawn = [T for T in mine[some] if sketch.near(T[:3, 3]) and np.abs(T[:3, :3]).max() < 2]
+        axes = 0.06 * self.scene.size * np.array([T[:3, :3].T for T in drawn]).reshape(-1, 3)
+        sketch.normals("frames", np.repeat([T[:3, 3] for T in drawn], 3, axis=0).reshape(-1, 3), axes)
+        off = np.flatnonzero(~((distance <= ZERO) & (angle <= ZERO)))
+        if not off.size:
+            return "every frame agrees, below 1e-9"
+        k = off[0]
+        first = f"the first is at point {k + 1}, by {gap(distance[k], angle[k])}"
+        return f"{off.size} of {len(mine)} frames are off; {first}"
+
+    def _turn(self, sketch, name):
+        """Attitudes along the path, made again from the student's numbers; that of this point is drawn."""
+        right = path.frames(self.points)
+        some = np.unique([*np.linspace(0, len(right) - 1, SAMPLES).round().astype(int), self.place])
+        made, lengths = right[some].copy(), []
+        for T in made:
+            numbers = self.mine.ask(name, T[:3, :3].copy())
+            lengths.append(np.linalg.norm(numbers))
+            if name == "zyx":
+                T[:3, :3] = rotations.from_zyx(numbers)
+            elif lengths[-1] < 1e-9:
+                raise Trouble("its quaternion has length 0")
+            else:
+                T[:3, :3] = rotations.from_quaternion(numbers / lengths[-1])
+        angle, here = apart(made, right[some])[1], int(np.searchsorted(some, self.place))
+        tick = "" if angle[here] > BACK else " \N{CHECK MARK}"
+        sketch.frame("attitude", made[here], sketch.label + tick)
+        off = np.flatnonzero(angle > BACK)
+        long = next((x for x in lengths if abs(x - 1) > ZERO), None) if name == "quaternion" else None
+        note = "" if long is None else f"; the length of a quaternion is {size(long)}, not 1"
+        if not off.size:
+            return f"every attitude made again from your numbers: below 1e-7{note}"
+        at = here if here in off else off[0]
+        told = f"at point {some[at] + 1} by {gap(0, angle[at])}"
+        return f"{off.size} of {len(some)} attitudes made again from your numbers are off, {told}{note}"
+
+    def _inside(self, sketch, name):
+        lower, upper = self.robot.q_min, self.robot.q_max
+        if not np.isfinite([lower, upper]).all():
+            raise Trouble(f"{self.robot.name} has a joint without limits")
+        ways = np.flatnonzero(self.reached == len(self.points))
+        q = self.q[ways].reshape(-1, self.robot.n)
+        mine, right = self.mine.ask(name, q, lower, upper), self.robot.within_limits(q)
+        if mine.shape != right.shape:
+            raise Trouble(f"it returns {len(mine)} verdicts for {len(right)} configurations")
+        off = (mine != right).reshape(len(ways), -1)
+        here = np.flatnonzero(off[list(ways).index(self.branch)]) if self.branch in ways else []
+        for k in range(MARKS):
+            if k < len(here):
+                sketch.mark(f"off{k}", self.points[here[k]])
+            else:
+                self.scene.remove(f"{sketch.path}/off{k}")
+        if not off.any():
+            return f"all {len(q)} configurations of all ways judged rightly"
+        which = ", ".join(self.names[ways[k]] for k in np.flatnonzero(off.any(axis=1))[:3])
+        return f"{off.sum()} of {len(q)} configurations of all ways are off, first of: {which}"
+
+    def _largest_speed(self, sketch, name):
+        self.speed = None
+        k = self.branch
+        mine, right = float(self.mine.ask(name, self.q[k], self.points, self.bounds)), self.limit.speed[k]
+        if not mine > 0:
+            raise Trouble(f"a speed of {mine:g} m/s leads nowhere")
+        self.speed = mine
+        self.scene.remove(f"{sketch.path}/worst")
+        if abs(mine - right) <= ZERO * right:
+            return f"{text.number(mine, 4)} m/s, below 1e-9 of the right one"
+        if mine < right:
+            return f"{text.number(mine, 4)} m/s: slower than the arm can, {text.number(right, 4)} m/s"
+        joint, i = int(self.limit.joint[k]), int(self.limit.index[k])
+        sketch.mark("worst", self.points[i], f"{sketch.label}: joint {joint + 1} too fast")
+        times = text.number(mine / right, 2)
+        return f"{text.number(mine, 4)} m/s: joint {joint + 1} turns {times} times too fast at point {i + 1}"
+
+    def _play(self):
+        if self.speed is None:
+            return
+        seconds = path.steps(self.points).sum() / self.speed
+        share = 100 * np.abs(path.joint_rates(self.q[self.branch], self.points, self.speed) / self.bounds)
+        texts = []
+        for i in self.shown:
+            use = share[min(i, len(share) - 1)]
+            worst = text.number(use.max(), 0)
+            texts.append(
+                f"point {i + 1} at your speed: joint {use.argmax() + 1} at {worst} percent of its bound"
+            )
+        fps = (len(self.shown) - 1) / seconds
+        self.panel.play(self.q[self.branch, self.shown], fps=fps, texts=texts)
