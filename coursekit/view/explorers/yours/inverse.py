@@ -1,20 +1,26 @@
 """Notebook 03: solutions of the student as translucent arms, and the steps of their Newton."""
 
+from typing import Any
+
 import numpy as np
 
 from coursekit.kinematics import rotations
+from coursekit.view.explorers import Explorer
 from coursekit.view.sketch import ZERO, Trouble, apart, gap, like_the_kr6
 
 from .steps import ahead, alike, iterate, run, wrist
 
 
-class Inverse:
+class Inverse(Explorer):
     """Notebook 03: solutions of the student as translucent arms, and the steps of their Newton."""
 
-    def more(self):
-        return []
+    T: Any
+    shown: Any
+    reached: bool
+    theta: Any
 
-    def yours(self, name, values):
+    def yours(self, name: str, values: dict[str, Any]) -> str:
+        """See `Explorer`."""
         sketch = self.sketch(name)
         if name == "newton_step":
             return self._newton(sketch, values["guess"])

@@ -1,22 +1,35 @@
 """Notebook 05: a column of the student, their ellipsoids, and their damped steps."""
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 
 from coursekit.kinematics import ik, jacobians
-from coursekit.view.controls import Action
+from coursekit.view.controls import Action, Control
+from coursekit.view.explorers import Explorer
 from coursekit.view.sketch import ZERO, Trouble, size
 
 from .steps import ahead, iterate, run
 
 
-class Jacobians:
+class Jacobians(Explorer):
     """Notebook 05: a column of the student, their ellipsoids, and their damped steps."""
 
-    def more(self):
+    run: Any
+    start: Any
+    target: Any
+    scale: Any
+    running: bool
+    draw: Any
+
+    def more(self) -> Sequence[Control]:
+        """See `Explorer`."""
         self.run = None
         return [Action("mine", "play yours", self._play)] if "dls_step" in self.mine.functions else []
 
-    def yours(self, name, values):
+    def yours(self, name: str, values: dict[str, Any]) -> str:
+        """See `Explorer`."""
         theta, sketch = values["theta"], self.sketch(name)
         if name == "ellipsoid":
             return self._ellipsoids(sketch, values)

@@ -1,10 +1,14 @@
 """Notebook 06: the student's frames along the path, their attitudes, limits and speed."""
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 
 from coursekit.kinematics import path, rotations
 from coursekit.view import text
-from coursekit.view.controls import Action
+from coursekit.view.controls import Action, Control
+from coursekit.view.explorers import Explorer
 from coursekit.view.sketch import ZERO, Trouble, apart, gap, size
 
 FRAMES = 13  # of the path that are drawn
@@ -13,15 +17,27 @@ MARKS = 20  # points at most that are marked
 BACK = 1e-7  # rad; of a turn near 0 half the digits are lost
 
 
-class Path:
+class Path(Explorer):
     """Notebook 06: the student's frames along the path, their attitudes, limits and speed."""
 
-    def more(self):
+    points: Any
+    place: int
+    q: Any
+    reached: Any
+    branch: int
+    bounds: Any
+    limit: Any
+    names: Any
+    speed: float | None
+
+    def more(self) -> Sequence[Control]:
+        """See `Explorer`."""
         self.speed = None
         wanted = "largest_speed" in self.mine.functions
         return [Action("mine", "play at your speed", self._play)] if wanted else []
 
-    def yours(self, name, values):
+    def yours(self, name: str, values: dict[str, Any]) -> str:
+        """See `Explorer`."""
         sketch = self.sketch(name)
         return getattr(self, f"_{name}" if name in ("tool_frames", "inside", "largest_speed") else "_turn")(
             sketch, name

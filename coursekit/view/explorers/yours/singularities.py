@@ -1,20 +1,26 @@
 """Notebook 04: where the student's angles lead, and what they say is lost."""
 
+from collections.abc import Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
 
 from coursekit.view import text
-from coursekit.view.controls import Action
+from coursekit.view.controls import Action, Control
+from coursekit.view.explorers import Explorer
 from coursekit.view.sketch import ZERO, Trouble, gap, like_the_kr6, size
 
 from .steps import wrist
 
 
-class Singularities:
+class Singularities(Explorer):
     """Notebook 04: where the student's angles lead, and what they say is lost."""
 
-    def more(self):
+    ends: dict[str, Any]
+
+    def more(self) -> Sequence[Control]:
+        """See `Explorer`."""
         self.ends = {}  # name -> where the student's angle leads
         labels = {"elbow_angle": "to your elbow", "shoulder_theta3": "to your shoulder"}
         return [
@@ -23,7 +29,8 @@ class Singularities:
             if name in self.mine.functions
         ]
 
-    def yours(self, name, values):
+    def yours(self, name: str, values: dict[str, Any]) -> str:
+        """See `Explorer`."""
         theta, sketch = values["theta"], self.sketch(name)
         if name in ("elbow_angle", "shoulder_theta3"):
             return self._stand(sketch, name, theta)
