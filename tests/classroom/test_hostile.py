@@ -104,7 +104,7 @@ def test_every_student_has_a_row_and_a_page(graded):
     for name, kind in KINDS.items():
         assert rows[name]["points"] == str(sum(kind.points))
         assert rows[name]["of"] == "12"
-        assert rows[name]["box"] == "bubblewrap"
+        assert rows[name]["box"].startswith("bubblewrap")
         assert (out / f"{name}.html").exists()
 
 

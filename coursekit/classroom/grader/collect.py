@@ -24,8 +24,8 @@ from ..course import Course, the_course
 from ..document import mark_of
 from .cells import LARGEST
 from .naming import Register, Told, notebook_of, told
-from .submissions import ARCHIVES
 
+ARCHIVES = (".zip", ".tar", ".gz", ".7z", ".rar")
 TABLE = "collected.csv"
 COLUMNS = ("student", "notebook", "submitted", "late", "canvas", "moodle", "from")
 DEEPEST = 4  # zips in zips

@@ -22,10 +22,12 @@ from pathlib import Path
 
 import numpy as np
 
+from .. import roster
 from ..author import notebook
 from ..course import Course, the_course
-from . import pool, report, worker
-from .box import Limits, as_root, bubblewrap
+from . import decisions, pool, worker
+from .box import Limits, bubblewrap
+from .desk import Desk
 from .journal import Journal, seed_of, set_aside
 from .submissions import Submissions, digest
 
@@ -39,23 +41,33 @@ def grade_class(
     jobs: int = 2,
     seed: int | None = None,
     box: bool = True,
-    regrade: bool = False,
+    regrade: bool | list[str] = False,
+    roster_path: Path | None = None,
+    follow_on: float = 1.0,
+    late: float = 0.1,
     executor: futures.Executor | None = None,
     course: Course | None = None,
     limits: Limits | None = None,
     progress: bool = True,
 ) -> str:
-    """Grade every submission that the journal in `out` does not hold yet; one line that sums it up.
+    """Grade every submission that the journal in `out` does not hold yet; what sums it up.
+
+    What was graded in an earlier run stays, also if its file is not in `submissions` any more: weeks can be
+    graded one after the other into one `out`.
 
     Parameters
     ----------
     submissions : folder with one folder for each student
-    out : gets grades.csv, <student>.html and journal.jsonl; if it was used before, that run is resumed
+    out : gets grades.csv, class.html, <student>.html and journal.jsonl; a run that was here is resumed.
+        overrides.csv and extensions.csv in it are read (`decisions`)
     jobs : submissions graded at the same time (with an executor: how many it can take)
     seed : draws the hidden inputs; same seed, same grades. Without one it is drawn once for each folder `out`
         and kept in its journal, so that nobody can work out the inputs beforehand
     box : False runs students' code without bubblewrap, and grades.csv says so
-    regrade : set the journal that is there aside and grade everybody anew
+    regrade : True sets the journal that is there aside and grades everybody anew; a list of students and
+        notebooks grades those anew, and of a notebook also what changed in its exercises
+    roster_path : a CSV of id, name, email: everybody in it gets a row, Canvas and Moodle get their gradebooks
+    follow_on, late : shares of the points, see `Decisions`
     executor : where the jobs run: threads by default, each of which starts processes
 
     ValueError if there is no box, if a canary fails, if the course changed since the last run into `out`, or
@@ -75,7 +87,9 @@ def grade_class(
     limits = limits or Limits()
     out.mkdir(parents=True, exist_ok=True)
     path = out / "journal.jsonl"
-    if regrade:
+    people = {one.id: one for one in roster.read(roster_path)} if roster_path else {}
+    anew = [] if isinstance(regrade, bool) else _units_of(regrade, course, units)
+    if regrade is True:
         set_aside(path)
     if seed is None:
         seed = seed_of(path)
@@ -89,29 +103,54 @@ def grade_class(
         stack.callback(pool.close)
         if executor is None:
             executor = stack.enter_context(futures.ThreadPoolExecutor(jobs))
-        journal = Journal(path, run)
+        journal = Journal(path, run, anew)
         stack.enter_context(contextlib.closing(journal))
         copies = out / ".copies"  # not elsewhere: what a killed run left there, the next one finds
         shutil.rmtree(copies, ignore_errors=True)
         copies.mkdir()
         stack.callback(shutil.rmtree, copies, ignore_errors=True)
-        handed_in = Submissions(
-            submissions, copies, {unit: course.notebook(unit).name for unit in units}, out
-        )
+        names = {unit: course.notebook(unit).name for unit in units}
+        handed_in = Submissions(submissions, copies, names, out, {*journal.students, *people})
+        students = handed_in.students
+        for student in regrade if isinstance(regrade, list) else ():
+            if student in students:
+                journal.forget(students=[student])
+            elif student.removesuffix(".ipynb") not in _stems(course, units) and student not in units:
+                raise ValueError(f"--regrade {student}: no student's name and no notebook's")
+        decided = decisions.read(out, course, units, set(students), follow_on, late)
         ahead = 2 * jobs + 2
         if (
             set_up := f"{sys.executable}, Python {sys.version}, numpy {np.__version__}"
         ) not in journal.proved:
             _canaries(run_all(executor, make.canaries(), ahead))
             journal.prove(set_up)
-        everything = [(student, unit) for student in handed_in.students for unit in units]
-        waiting = [x for x in everything if not journal.holds(*x, digest(handed_in.data(*x)))]
+        everything = [(student, unit) for student in students for unit in units]
+        waiting = [x for x in everything if _is_due(x, journal, handed_in)]
+        desk = Desk(out, course, units, people, decided, handed_in, journal, box)
         bar = _progress(len(everything), len(everything) - len(waiting), progress)
         with contextlib.closing(bar):
             for record in run_all(executor, (make.job(handed_in, *x) for x in waiting), ahead):
                 journal.add(record)
                 bar.update()
-        return _write(out, handed_in, units, journal, box)
+                desk.look()
+        return desk.write()
+
+
+def _stems(course: Course, units: list[str]) -> dict[str, str]:
+    return {course.notebook(unit).stem: unit for unit in units}
+
+
+def _units_of(names: list[str], course: Course, units: list[str]) -> list[str]:
+    """Those of the names that are a notebook's, as units."""
+    stems = _stems(course, units) | {unit: unit for unit in units}
+    return sorted({stems[stem] for name in names if (stem := name.removesuffix(".ipynb")) in stems})
+
+
+def _is_due(which: tuple[str, str], journal: Journal, handed_in: Submissions) -> bool:
+    data = handed_in.data(*which)
+    if data is None and journal.has_grade(*which):
+        return False  # it was handed in and graded earlier
+    return not journal.holds(*which, digest(data))
 
 
 def course_digests(course: Course, units: list[str]) -> dict[str, str]:
@@ -139,7 +178,8 @@ class Jobs:
         self._libraries = {unit: worker.library(course, unit, seed) for unit in units}
 
     def job(self, handed_in: Submissions, student: str, unit: str) -> dict:
-        return self._job(student, unit, handed_in.data(student, unit), handed_in.note(student, unit))
+        when = handed_in.time(student, unit)
+        return self._job(student, unit, handed_in.data(student, unit), handed_in.note(student, unit), when)
 
     def canaries(self) -> Iterator[dict]:
         """The solved notebooks and the untouched ones, graded as if they were handed in."""
@@ -148,7 +188,9 @@ class Jobs:
             for student, document in (("solved", solved), ("untouched", notebook.student_version(solved))):
                 yield self._job(student, unit, json.dumps(document).encode(), "")
 
-    def _job(self, student: str, unit: str, data: bytes | None, note: str) -> dict:
+    def _job(
+        self, student: str, unit: str, data: bytes | None, note: str, when: tuple[str, bool] = ("", False)
+    ) -> dict:
         return {
             **self._common,
             "library": self._libraries[unit],
@@ -158,6 +200,8 @@ class Jobs:
             "notebook": None if data is None else base64.b64encode(data).decode(),
             "digest": digest(data),
             "note": note,
+            "submitted": when[0],
+            "late": when[1],
             "exercises": [(e.name, e.points) for e in self._course.exercises(unit)],
         }
 
@@ -200,7 +244,7 @@ def grade_one(job: dict) -> dict:
 
 
 def _head(job: dict) -> dict:
-    return {key: job[key] for key in ("student", "unit", "name", "digest")}
+    return {key: job[key] for key in ("student", "unit", "name", "digest", "submitted", "late")}
 
 
 def _failed(job: dict, why: str) -> dict:
@@ -221,37 +265,14 @@ def _worker(job: dict) -> tuple[dict | None, str]:
 def _canaries(records: Iterator[dict]) -> None:
     """ValueError unless solved notebooks get full marks and untouched ones nothing."""
     for record in records:
-        points, of = report.total(record, "points"), report.total(record, "of")
-        if points is None or points != (of if record["student"] == "solved" else 0):
+        rows = record["exercises"].values()
+        points, of = sum(row["points"] for row in rows), sum(row["of"] for row in rows)
+        if record.get("failed") or points != (of if record["student"] == "solved" else 0):
             why = [f"{name}: {row['text']}" for name, row in record["exercises"].items() if row["text"]]
             raise ValueError(
                 f"the {record['student']} {record['name']} gets {points} of {of} points, "
                 f"so nobody is graded: {'; '.join(record['notes'] + why)}"
             )
-
-
-def _write(out: Path, handed_in: Submissions, units: list[str], journal: Journal, box: bool) -> str:
-    failed, students = 0, handed_in.students
-    with contextlib.closing(report.Gradebook(out / "grades.csv", units, box)) as book:
-        for student in students:
-            results = {unit: journal.record(student, unit) for unit in units}
-            failed += sum(bool(record.get("failed")) for record in results.values())
-            book.row(student, results)
-            report.write_page(out / report.page_name(student), student, results)
-    text = f"{len(students)} students, {len(units)} notebooks: {out / 'grades.csv'}"
-    text += f"; {failed} COULD NOT BE GRADED, run it again" if failed else ""
-    if handed_in.strays:
-        names = ", ".join(handed_in.strays[:3])
-        text += (
-            f"\n{len(handed_in.strays)} files beside the students' folders were not graded ({names}): "
-            "`coursekit collect` sorts them into folders"
-        )
-    if as_root():
-        text += (
-            "\nYou are root, for whom limits on processes do nothing, and whose Python nobody else may read: "
-            "grade as an ordinary user if you can"
-        )
-    return text
 
 
 def _progress(total: int, done: int, show: bool):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Collection
 from pathlib import Path
 
 
@@ -12,20 +13,24 @@ class Journal:
 
     Its first line says which run it belongs to: the seed, the box, and what decides a grade. ValueError if
     that is another one, if somebody else grades into this folder, or if a line is no record.
+
+    anew : units that are graded anew: what decides their grades may have changed, old records do not count
     """
 
-    def __init__(self, path: Path, run: dict) -> None:
+    def __init__(self, path: Path, run: dict, anew: Collection[str] = ()) -> None:
         self._path = path
         self._file = open(path, "a+b")  # noqa: SIM115 - close() closes it
         self.proved: set[str] = set()  # set-ups that passed their canaries in this run
+        self._graded: set[tuple[str, str]] = set()
         self._where: dict[tuple[str, str], tuple[int, str | None]] = {}
         try:
             self._lock()
             self._file.seek(0)
             head = self._file.readline()
             if head.endswith(b"\n"):
-                self._same_run(self._parsed(head, 1), run)
+                self._head = self._parsed(head, 1)
                 self._read()
+                self._same_run(self._head, run, anew)
             else:
                 self._file.truncate(0)
                 self._append(run)
@@ -45,14 +50,19 @@ class Journal:
                 f"another grader is at work in {self._path.parent}: wait, or name another folder"
             ) from None
 
-    def _same_run(self, before: dict, now: dict) -> None:
-        """What decides a grade may not change under grades that are there."""
+    def _same_run(self, before: dict, now: dict, anew: Collection[str]) -> None:
+        """What decides a grade may not change under grades that are there, unless those are given anew."""
         changed = [what for what in sorted({*before, *now}) if before.get(what) != now.get(what)]
-        changed = [what if what != "points" else _points(before, now) for what in changed]
-        if changed:
+        if set(changed) <= {*(f"course {unit}" for unit in anew), *(["points"] if anew else [])}:
+            if anew:
+                self._append({"run": now, "anew": sorted(anew)})
+                self.forget(units=anew)
+        else:
+            changed = [what if what != "points" else _points(before, now) for what in changed]
             raise ValueError(
                 f"{self._path.parent} holds another run: {', '.join(changed)} changed since. "
-                "Name an empty folder, or grade everybody anew with --regrade"
+                "Name an empty folder, grade everybody anew with --regrade, or one notebook with "
+                "--regrade NOTEBOOK if only its course changed"
             )
 
     def _parsed(self, line: bytes, number: int) -> dict:
@@ -67,9 +77,28 @@ class Journal:
             )
         return record
 
+    @property
+    def students(self) -> set[str]:
+        """Everybody who was ever graded here."""
+        return {student for student, _ in self._where}
+
     def holds(self, student: str, unit: str, digest: str) -> bool:
         """Is this very submission graded?"""
         return self._where.get((student, unit), (0, None))[1] == digest
+
+    def has_grade(self, student: str, unit: str) -> bool:
+        """Was anything that a student handed in graded?"""
+        return (student, unit) in self._graded
+
+    def is_forgotten(self, student: str, unit: str) -> bool:
+        """Does a grade wait to be given anew?"""
+        return self._where.get((student, unit), (0, ""))[1] is None
+
+    def forget(self, students: Collection[str] = (), units: Collection[str] = ()) -> None:
+        """Let these be graded anew; until then the old record counts."""
+        for key, (position, _) in self._where.items():
+            if key[0] in students or key[1] in units:
+                self._where[key] = (position, None)
 
     def add(self, record: dict) -> None:
         self._note(record, self._append(record))
@@ -79,8 +108,10 @@ class Journal:
         self._append({"proved": set_up})
         self.proved.add(set_up)
 
-    def record(self, student: str, unit: str) -> dict:
-        """The last record of a student's unit."""
+    def record(self, student: str, unit: str) -> dict | None:
+        """The last record of a student's unit, None if there is none yet."""
+        if (student, unit) not in self._where:
+            return None
         position, _ = self._where[student, unit]
         self._file.seek(position)
         record = self._parsed(self._file.readline(), 0)
@@ -102,6 +133,9 @@ class Journal:
             record = self._parsed(line, number)
             if isinstance(record.get("proved"), str):
                 self.proved.add(record["proved"])
+            elif isinstance(record.get("run"), dict) and isinstance(record.get("anew"), list):
+                self._head = record["run"]
+                self.forget(units=record["anew"])
             elif {"student", "unit"} <= record.keys():
                 self._note(record, position)
             else:
@@ -113,6 +147,8 @@ class Journal:
             None if record.get("failed") else record.get("digest")
         )  # what failed is tried again next time
         self._where[record["student"], record["unit"]] = (position, digest)
+        if digest:
+            self._graded.add((record["student"], record["unit"]))
 
     def _append(self, record: dict) -> int:
         self._file.seek(0, os.SEEK_END)

@@ -6,7 +6,13 @@ import csv
 import html
 import os
 import zlib
+from collections import Counter
+from collections.abc import Iterable
+from datetime import date
 from pathlib import Path
+
+from ..course import Course
+from .marks import Mark, Notebook, Standing, whole
 
 STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 50rem; margin: 2rem auto; padding: 0 1rem; }
@@ -18,63 +24,57 @@ td.points { white-space: nowrap; } code { font-size: .95em; }
 :root { color-scheme: light dark; }
 """
 
-
 OURS = ("class",)  # pages that are no student's
 
 HEAD = "".join(f"<th scope='col'>{word}</th>" for word in ("exercise", "points", "feedback"))
 
 
-class Gradebook:
-    """grades.csv, row by row: student, total, points of each unit, notes, and how the code was boxed."""
+def write_grades(path: Path, course: Course, units: list[str], class_: Iterable[Standing], box: str) -> None:
+    """grades.csv: student, points, of; points of each notebook and each exercise; days late, notes, box.
 
-    def __init__(self, path: Path, units: list[str], boxed: bool) -> None:
-        self._path, self._part = path, path.with_name(f".{path.name}.part")
-        # with a mark at its beginning: Excel takes letters for others without it
-        self._file = self._part.open("w", newline="", encoding="utf-8-sig", errors="replace")
-        self._writer = csv.writer(self._file, quoting=csv.QUOTE_ALL)  # where `;` separates, too
-        self._units = units
-        self._box = "bubblewrap" if boxed else "NO BOX"
-        self._writer.writerow(["student", "points", "of", *units, "notes", "box"])
-
-    def row(self, student: str, results: dict[str, dict]) -> None:
-        """results: {unit: record of the journal}. What could not be graded is left empty, and is not a 0."""
-        points = {u: total(r, "points") for u, r in results.items()}
-        of = sum(total(r, "of") or 0 for r in results.values())
-        known = [p for p in points.values() if p is not None]
-        whole = sum(known) if len(known) == len(points) else None
-        notes = [f"{unit}: {note}" for unit in self._units for note in results[unit]["notes"]]
-        notes += [
-            f"{unit} {name}: {row['text']}"
-            for unit in self._units
-            for name, row in results[unit]["exercises"].items()
-            if row["text"] and row["text"] not in results[unit]["notes"]
-        ]
-        cells = [student, whole, of, *(points[u] for u in self._units), "; ".join(notes), self._box]
-        self._writer.writerow([_harmless(cell) for cell in cells])
-
-    def close(self) -> None:
-        """Only a whole table takes the place of the one before."""
-        self._file.close()
-        os.replace(self._part, self._path)
+    What could not be graded, or is not graded yet, is left empty: it is not a 0. Only a whole table takes the
+    place of the one before.
+    """
+    names = [(unit, e.name) for unit in units for e in course.exercises(unit)]
+    twice = {name for name, count in Counter(name for _, name in names).items() if count > 1}
+    columns = [f"{unit} {name}" if name in twice else name for unit, name in names]
+    part = path.with_name(f".{path.name}.part")
+    # with a mark at its beginning: Excel takes letters for others without it
+    with part.open("w", newline="", encoding="utf-8-sig", errors="replace") as file:
+        table = csv.writer(file, quoting=csv.QUOTE_ALL)  # where `;` separates, too
+        table.writerow(["student", "points", "of", *units, *columns, "days late", "notes", "box"])
+        for one in class_:
+            points = {
+                (unit, mark.name): mark.points for unit, nb in one.notebooks.items() for mark in nb.marks
+            }
+            row: list = [one.student, one.points if len(one.notebooks) == len(units) else None, one.of]
+            row += [nb.points if (nb := one.notebooks.get(unit)) else None for unit in units]
+            row += [points.get(key) for key in names]
+            row += [sum(nb.days_late for nb in one.notebooks.values()) or None, _notes(one), box]
+            table.writerow([harmless(cell) for cell in row])
+    os.replace(part, path)
 
 
-def total(record: dict, key: str) -> int | None:
-    """Sum over the exercises; None if the submission could not be graded."""
-    return None if record.get("failed") else sum(row[key] for row in record["exercises"].values())
+def _notes(one: Standing) -> str:
+    notes = [f"{unit}: {note}" for unit, nb in one.notebooks.items() for note in nb.notes]
+    for unit, nb in one.notebooks.items():
+        for mark in nb.marks:
+            if mark.note:
+                notes.append(f"{unit} {mark.name}: {mark.note}")
+            elif mark.text and mark.text not in nb.notes:
+                notes.append(f"{unit} {mark.name}: {mark.text}")
+    return "; ".join(notes)
 
 
-def _harmless(cell):
+def harmless(cell):
     """A spreadsheet would run a text that begins like a formula."""
     if cell is None:
         return ""
-    if isinstance(cell, str):
-        cell = "".join(c if c.isprintable() else " " for c in cell)
-        return (
-            "'" + cell
-            if cell[:1] in ("=", "+", "-", "@", "\t", "\uff1d", "\uff0b", "\uff0d", "\uff20")
-            else cell
-        )
-    return cell
+    if isinstance(cell, int | float):
+        return whole(cell)
+    cell = "".join(c if c.isprintable() else " " for c in cell)
+    formula = cell[:1] in ("=", "+", "-", "@", "\t", "\uff1d", "\uff0b", "\uff0d", "\uff20")
+    return "'" + cell if formula else cell
 
 
 def page_name(student: str) -> str:
@@ -85,27 +85,41 @@ def page_name(student: str) -> str:
     return f"{short}-{zlib.crc32(os.fsencode(student)):08x}.html"
 
 
-def write_page(path: Path, student: str, results: dict[str, dict]) -> None:
+def write_page(path: Path, one: Standing) -> None:
     """A student's feedback: points, and what to look at, for every exercise."""
-    tables = []
-    for record in results.values():
-        rows = "".join(
-            f"<tr><td><code>{_text(name)}</code></td><td class='points'>{row['points']} of {row['of']}</td>"
-            f"<td>{_text(row['text']) or 'right'}</td></tr>"
-            for name, row in record["exercises"].items()
-        )
-        notes = "".join(f"<p>{_text(note)}</p>" for note in record["notes"])
-        tables.append(
-            f"<table><caption>{_text(record['name'])}</caption>"
-            f"<thead><tr>{HEAD}</tr></thead><tbody>{rows}</tbody></table>{notes}"
-        )
+    title = f"Feedback for {text(one.name or one.student)}"
+    total = "not graded yet" if one.points is None else f"{whole(one.points)} of {whole(one.of)} points"
     page = (
         "<!doctype html><html lang='en'><head><meta charset='utf-8'>"
-        f"<title>Feedback for {_text(student)}</title><style>{STYLE}</style></head>"
-        f"<body><h1>Feedback for {_text(student)}</h1>{''.join(tables)}</body></html>\n"
+        "<meta name='viewport' content='width=device-width'>"
+        f"<title>{title}</title><style>{STYLE}</style></head>"
+        f"<body><h1>{title}</h1><p>{total}, {date.today().isoformat()}</p>"
+        f"{''.join(_table(nb) for nb in one.notebooks.values())}</body></html>\n"
     )
     path.write_text(page, encoding="utf-8", errors="replace")
 
 
-def _text(value) -> str:
+def _table(nb: Notebook) -> str:
+    points = "not graded" if nb.points is None else f"{whole(nb.points)} of {whole(nb.of)}"
+    when = f", handed in {nb.submitted:%Y-%m-%d %H:%M}" if nb.submitted and nb.there else ""
+    notes = "".join(f"<p>{text(note)}</p>" for note in nb.notes)
+    return (
+        f"<table><caption>{text(nb.name)}: {points}{when}</caption>"
+        f"<thead><tr>{HEAD}</tr></thead><tbody>{''.join(map(_row, nb.marks))}</tbody></table>{notes}"
+    )
+
+
+def _row(mark: Mark) -> str:
+    points = "not graded" if mark.points is None else f"{whole(mark.points)} of {whole(mark.of)}"
+    said = [mark.text, mark.line and f"In your code: {mark.line}", mark.note]
+    if mark.points is not None and not any(said):
+        said = ["right"]
+    feedback = "<br>".join(text(one) for one in said if one)
+    return (
+        f"<tr><td><code>{text(mark.name)}</code></td><td class='points'>{points}</td><td>{feedback}</td></tr>"
+    )
+
+
+def text(value: object) -> str:
+    """As it stands in a page: what students wrote stays text."""
     return html.escape(str(value))

@@ -7,11 +7,12 @@ import os
 import stat
 from collections import defaultdict
 from collections.abc import Iterable
+from datetime import datetime
 from pathlib import Path
 
+from . import collect
 from .cells import LARGEST
-
-ARCHIVES = (".zip", ".tar", ".gz", ".7z", ".rar")
+from .collect import ARCHIVES
 
 
 class Submissions:
@@ -19,12 +20,16 @@ class Submissions:
 
     names : {unit: name of its notebook}
     out : where grades go; if that is in `folder`, it is nobody's
+    others : students without a folder: the roster's, and those of earlier runs
 
     ValueError if there is no student's folder, but something else that was handed in.
     """
 
-    def __init__(self, folder: Path, copies: Path, names: dict[str, str], out: Path) -> None:
+    def __init__(
+        self, folder: Path, copies: Path, names: dict[str, str], out: Path, others: Iterable[str] = ()
+    ) -> None:
         self._copies = copies
+        self._times: dict[tuple[str, str], tuple[str, bool]] = {}
         self._numbers: dict[str, int] = {}  # a student's name need not be fit for a path
         self._notes: dict[tuple[str, str], str] = {}
         students, self.strays = _students(folder, out)
@@ -41,11 +46,33 @@ class Submissions:
                     student, name, self._path(student.name, unit), set(names.values())
                 )
                 self._notes[student.name, unit] = note
+                self._times[student.name, unit] = _time(student / name), False
+        for student_name in sorted(set(others) - self._numbers.keys()):
+            self._numbers[student_name] = len(self._numbers)
+            for unit in names:
+                self._notes[student_name, unit] = "nothing handed in"
+        units = {name: unit for unit, name in names.items()}
+        self._table = collect.read_table(folder)
+        for row in self._table:
+            key = row["student"], units.get(row["notebook"], "")
+            if key in self._times:
+                self._times[key] = row["submitted"] or self._times[key][0], bool(row["late"])
 
     @property
     def students(self) -> list[str]:
         """Everybody who has a folder, in alphabetical order."""
-        return list(self._numbers)
+        return sorted(self._numbers)
+
+    def platform(self, which: str) -> dict[str, str]:
+        """{student: number that "canvas" or "moodle" has for them}, where collected files told it."""
+        return {row["student"]: row[which] for row in self._table if row[which]}
+
+    def time(self, student: str, unit: str) -> tuple[str, bool]:
+        """(when it was handed in, does the learning platform call it late?).
+
+        From collected.csv, else the time of the file; '' if that is not known.
+        """
+        return self._times.get((student, unit), ("", False))
 
     def data(self, student: str, unit: str) -> bytes | None:
         """The notebook's bytes, None if there is nothing to grade; then `note` says why."""
@@ -57,6 +84,13 @@ class Submissions:
 
     def _path(self, student: str, unit: str) -> Path:
         return self._copies / f"{self._numbers[student]}-{unit}"
+
+
+def _time(path: Path) -> str:
+    try:
+        return datetime.fromtimestamp(os.lstat(path).st_mtime).isoformat(" ", "seconds")
+    except (OSError, OverflowError, ValueError):
+        return ""
 
 
 def digest(data: bytes | None) -> str:

@@ -27,7 +27,7 @@ from ..check import examples_of
 from ..course import Course, course_at, the_course
 from ..exercise import Exercise
 from ..verdict import Example, Verdict, verdict
-from . import cells
+from . import cells, follow_on
 from .box import BoxLost, Limits, bubblewrap
 from .handed_out import handed_out
 from .locked import locked_files, write_files
@@ -92,7 +92,12 @@ def grade(job: dict, libraries: _Libraries) -> dict:
                 row["text"] = f"no answer: {error}"
                 continue
             found = verdict(exercise, examples, attempts)
-            row["text"], row["points"] = _told(found), exercise.points if found.right else 0
+            row |= {"text": _told(found), "points": exercise.points if found.right else 0}
+            row |= {"kind": found.kind, "step": found.step}
+        for exercise, earlier in follow_on.candidates(course, job["unit"], result, sources):
+            examples = _examples(course, exercise, job["seed"], job["unit"], arm)
+            if follow_on.is_right(student, course, job["unit"], exercise, earlier, examples):
+                result[exercise.name]["follow_on"] = " and ".join(earlier)
     finally:
         student.close()
     cpu = time.process_time() - before + student.cpu

@@ -98,6 +98,15 @@ def run(request: dict, space: dict) -> dict:
     return {}
 
 
+def replace(request: dict, space: dict) -> dict:
+    """Put right functions in the place of a student's, so that what calls them can be judged alone."""
+    own: dict = {"__name__": "solved"}
+    for number, source in enumerate(request["replace"]):
+        exec(compile(source, f"<solution {number}>", "exec"), own)
+    space.update({name: own[name] for name in request["names"]})
+    return {}
+
+
 def ask(request: dict, space: dict) -> dict:
     """Call a function of the student's on every input."""
     function = space.get(request["ask"])
@@ -160,6 +169,9 @@ def numbers(value: Any) -> dict:
     return {"shape": list(array.shape), "values": [repr(float(x)) for x in array.ravel()]}
 
 
+DOES = {"run": run, "replace": replace, "ask": ask}
+
+
 def main() -> None:
     """Answer requests until there are no more."""
     requests, replies = os.fdopen(os.dup(0), "rb"), os.dup(1)
@@ -183,7 +195,7 @@ def main() -> None:
         try:
             timer(REAL, request["seconds"])
             try:
-                reply = run(request, space) if "run" in request else ask(request, space)
+                reply = next(do for word, do in DOES.items() if word in request)(request, space)
             finally:
                 timer(REAL, 0)
         except Late:

@@ -1,0 +1,89 @@
+"""Follow-on credit: an exercise that is wrong only because an earlier one, which it calls, is wrong.
+
+It is asked once more, in a box of its own, with the right earlier function in the place of the student's. By
+then that earlier exercise is judged, so that its solution may be seen in the box: it can earn nothing there.
+The solution of the exercise in question never enters. What is said in that box is not shown to anybody.
+"""
+
+from __future__ import annotations
+
+import ast
+
+from ..author import notebook
+from ..course import Course
+from ..exercise import Exercise
+from ..verdict import Example, verdict
+from .box import BoxLost
+from .student import Student
+
+
+def candidates(
+    course: Course, unit: str, result: dict[str, dict], sources: list[str]
+) -> list[tuple[Exercise, list[str]]]:
+    """Wrong exercises that call wrong earlier ones, and which, in the order of the notebook."""
+    uses = _uses(sources)
+    found, wrong = [], list[str]()
+    for exercise in course.exercises(unit):
+        row = result[exercise.name]
+        if row["points"]:
+            continue
+        if earlier := [name for name in wrong if name in _reached(exercise.name, uses)]:
+            found.append((exercise, earlier))
+        wrong.append(exercise.name)
+    return found
+
+
+def is_right(
+    student: Student,
+    course: Course,
+    unit: str,
+    exercise: Exercise,
+    earlier: list[str],
+    examples: list[Example],
+) -> bool:
+    """Is the exercise right with right earlier ones?"""
+    student.replace(_solutions(course, unit, earlier, exercise.name), earlier)
+    try:
+        attempts = student.ask(exercise, [example.arguments for example in examples])
+    except (BoxLost, ValueError):
+        return False
+    finally:
+        student.close()
+    return verdict(exercise, examples, attempts).right
+
+
+def _solutions(course: Course, unit: str, names: list[str], but: str) -> list[str]:
+    """The set-up and the solutions down to the last of these: solutions may call earlier ones."""
+    sources, left = [], set(names)
+    for cell in notebook.read(course.notebook(unit))["cells"]:
+        solves = cell["metadata"].get("nbgrader", {}).get("grade_id") if notebook.is_solution(cell) else None
+        set_up = cell["cell_type"] == "code" and "setup" in notebook.tags(cell)
+        if left and solves != but and (solves or set_up):
+            sources.append(cell["source"])
+            left.discard(solves)
+    return sources
+
+
+def _uses(sources: list[str]) -> dict[str, set[str]]:
+    """{function: the names in its body}, of all cells; the last definition counts."""
+    uses: dict[str, set[str]] = {}
+    for source in sources:
+        try:
+            tree = ast.parse(source)
+        except (SyntaxError, ValueError, RecursionError, MemoryError):
+            continue
+        for node in ast.walk(tree):
+            if isinstance(node, ast.FunctionDef):
+                uses[node.name] = {inner.id for inner in ast.walk(node) if isinstance(inner, ast.Name)}
+    return uses
+
+
+def _reached(name: str, uses: dict[str, set[str]]) -> set[str]:
+    """Everything that a function calls, and what that calls in turn."""
+    reached: set[str] = set()
+    waiting = [name]
+    while waiting:
+        for inner in uses.get(waiting.pop(), set()) - reached:
+            reached.add(inner)
+            waiting.append(inner)
+    return reached
