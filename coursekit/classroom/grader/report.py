@@ -66,13 +66,13 @@ def _notes(one: Standing) -> str:
     return "; ".join(notes)
 
 
-def harmless(cell):
+def harmless(cell: object) -> object:
     """A spreadsheet would run a text that begins like a formula."""
     if cell is None:
         return ""
     if isinstance(cell, int | float):
         return whole(cell)
-    cell = "".join(c if c.isprintable() else " " for c in cell)
+    cell = "".join(c if c.isprintable() else " " for c in str(cell))
     formula = cell[:1] in ("=", "+", "-", "@", "\t", "\uff1d", "\uff0b", "\uff0d", "\uff20")
     return "'" + cell if formula else cell
 
