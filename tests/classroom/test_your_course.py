@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 from datetime import datetime
+from importlib.util import find_spec
 
 import pytest
 
@@ -479,10 +480,15 @@ def test_points_that_changed_are_told_and_nothing_is_mixed(in_class, folder, tmp
     run += [str(tmp_path / "in"), str(tmp_path / "grades")]
     assert main(run) == 0
     grades = (tmp_path / "grades" / "grades.csv").read_bytes()
-    toml(folder, **{"[weights]": "tip = 5\nreach = 1"})
+    for name in ("_exercises.py", ".ipynb"):
+        path = folder / f"{STEM}{name}"
+        path.write_text(
+            path.read_text().replace("points=2", "points=5").replace('"points": 2', '"points": 5')
+        )
     assert main(run) == 2
     error = capsys.readouterr().err
     assert "points (tip counts 5, 2 before) changed since" in error and "--regrade" in error
+    assert f"course {STEM}, " in error
     assert (tmp_path / "grades" / "grades.csv").read_bytes() == grades
     assert main([*run, "--regrade"]) == 0
 
@@ -522,3 +528,53 @@ def test_two_with_the_same_arm_are_refused(folder, tmp_path, monkeypatch):
     sentence = told(release.release, tmp_path / "class", read(folder), tmp_path / "roster.csv")
     assert "id: s1 and s2 would get the same arm" in sentence
     assert your_course.read(folder) and not (tmp_path / "class").exists()
+
+
+# ---- the other commands
+
+
+def test_students_read_title_and_deadlines(folder, tmp_path):
+    release.release(tmp_path / "out", toml(folder, **{"[deadlines]": f"{STEM} = 2027-02-01"}))
+    text = (tmp_path / "out" / "README.md").read_text()
+    assert text.startswith("# Mine\n") and f"* {STEM}: 2027-02-01 23:59" in text and "{" not in text
+    assert "coursekit update NEW" in text
+
+
+def test_a_title_in_any_letters_comes_back(folder, tmp_path):
+    title = 'Ärme "und" Gelenke: \\ 機械'
+    course = toml(folder, title=json.dumps(title, ensure_ascii=False), **{"[weights]": "tip = 0.1"})
+    release.release(tmp_path / "out", course)
+    again = read(tmp_path / "out" / "notebooks")
+    assert (again.title, again.weights, again.version) == (title, {"tip": 0.1}, "1")
+
+
+def test_the_export_for_nbgrader_brings_along_what_check_reads(folder, tmp_path, monkeypatch):
+    toml(folder, notebooks=f'["{STEM}", "04_singularities"]')
+    assert main(["export", "nbgrader", str(tmp_path / "out"), "--course", str(folder)]) == 0
+    assignment = tmp_path / "out" / "source" / STEM
+    monkeypatch.chdir(assignment)
+    assert diagnose("tip", lambda theta, lengths: None).kind == "misfit"
+    cells = document.read(assignment / f"{STEM}.ipynb")["cells"]
+    assert "### BEGIN HIDDEN TESTS" in cells[-1]["source"]
+    assert course_here(tmp_path / "out" / "source" / "04_singularities").units == ["nb04"]
+
+
+def test_study_and_lab_open_the_courses_own_folders(folder, split, monkeypatch):
+    from coursekit.classroom import lab
+
+    opened = []
+    monkeypatch.setattr(lab, "start", lambda arguments, notebooks=None, **more: opened.append(notebooks))
+    assert main(["lab", "--course", str(split.notebooks)]) == 0
+    assert main(["study", "--course", str(split.notebooks)]) == 0
+    assert opened == [split.solved, split.notebooks / "work"]
+    assert [p.name for p in (split.notebooks / "work").iterdir()] == [f"{STEM}.ipynb"]
+    assert course_here(split.notebooks / "work") == split
+
+
+def test_the_pages_of_a_split_course_hold_no_solution(split, tmp_path):
+    if not find_spec("jupyter_server_mathjax"):
+        (pytest.fail if os.environ.get("CI") == "true" else pytest.skip)("coursekit/site/requirements.txt")
+    assert main(["site", str(tmp_path / "site"), "--course", str(split.notebooks)]) == 0
+    pages = list((tmp_path / "site").rglob("*.html"))
+    assert any("Where is the tip?" in page.read_text("utf-8") for page in pages)
+    assert not leaks(tmp_path / "site")

@@ -7,12 +7,15 @@ ones, with the right answers as numbers.
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 
 import numpy as np
 
-from ..course import Course, the_course
-from . import notebook, tables
+from ..course import TOML, Course, the_course
+from ..your_course import YourCourse
+from . import notebook, release, tables
+from .verify import verify
 
 WARNING = (
     "Warning: nbgrader runs its tests in the same process as the students' code. A notebook that patches\n"
@@ -42,6 +45,7 @@ def export(out: Path, course: Course | None = None, seed: int = 0) -> None:
     course, out = course or the_course(), Path(out)
     if out.exists():
         raise ValueError(f"{out} exists already: name a new folder")
+    verify(course)
     out.mkdir(parents=True)
     (out / "nbgrader_config.py").write_text(CONFIG, encoding="utf-8")
     for unit in course.units:
@@ -51,6 +55,18 @@ def export(out: Path, course: Course | None = None, seed: int = 0) -> None:
         folder = out / "source" / path.stem
         folder.mkdir(parents=True)
         notebook.write(folder / path.name, _with_hidden_tests(course, unit, seed))
+        if isinstance(course, YourCourse):
+            _beside(course, unit, folder)
+
+
+def _beside(course: YourCourse, unit: str, folder: Path) -> None:
+    """What `check` reads in a course of one's own: nbgrader hands out the files of an assignment's folder."""
+    paths = [course.exercises_path(unit), course.samples_path(unit)] if course.is_at_home(unit) else []
+    for path in [*paths, *(course.notebooks / name for name in course.files)]:
+        copy = shutil.copytree if path.is_dir() else shutil.copy
+        copy(path, folder / path.name)
+    text = release.public_toml(course, [course.stem_of(unit)])
+    (folder / TOML).write_text(text, encoding="utf-8", newline="\n")
 
 
 def _with_hidden_tests(course: Course, unit: str, seed: int) -> dict:

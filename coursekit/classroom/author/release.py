@@ -91,7 +91,7 @@ def _distinct(path: Path | None, people: list[roster.Student]) -> None:
 def _build(out: Path, course: Course) -> None:
     """Everything but what differs from one student to the next."""
     out.mkdir(parents=True)
-    shutil.copy(Path(__file__).with_name("students.md"), out / "README.md")
+    (out / "README.md").write_text(_readme(course), encoding="utf-8", newline="\n")
     for name in SET_UP:
         shutil.copy(ROOT / name, out / name)
     students = out / "coursekit" / "classroom"
@@ -109,6 +109,12 @@ def _build(out: Path, course: Course) -> None:
     for name in OF_THE_COURSE:
         shutil.copytree(rooms / name, students / name, ignore=HIDDEN)
     write_notebooks(course, out / "notebooks")
+
+
+def _readme(course: Course) -> str:
+    dates = "".join(f"\n* {stem}: {when:%Y-%m-%d %H:%M}" for stem, when in course.deadlines.items())
+    text = Path(__file__).with_name("students.md").read_text(encoding="utf-8")
+    return text.format(title=course.title, deadlines=f" They are due:\n{dates}" if dates else "")
 
 
 def _personal(folder: Path, course: Course, student: roster.Student) -> None:
@@ -174,16 +180,20 @@ def _files(course: Course, beside: bool) -> list[Path]:
     return found
 
 
-def public_toml(course: YourCourse) -> str:
-    """course.toml as students get it: it does not say where the solutions are."""
+def public_toml(course: YourCourse, stems: list[str] | None = None) -> str:
+    """course.toml as students get it, without the place of the solutions; stems: of these notebooks only."""
+    stems = list(course.stems) if stems is None else stems
+    names = {e.name for unit in course.units if course.stem_of(unit) in stems for e in course.exercises(unit)}
+    weights = {name: weight for name, weight in course.weights.items() if name in names}
+    deadlines = {stem: when for stem, when in course.deadlines.items() if stem in stems}
     lines = [
         f"title = {json.dumps(course.title, ensure_ascii=False)}",
         f"version = {json.dumps(course.version)}",
-        f"notebooks = {json.dumps(list(course.stems))}",
+        f"notebooks = {json.dumps(stems)}",
     ]
-    if course.weights:
-        lines += ["", "[weights]", *(f"{name} = {weight:g}" for name, weight in course.weights.items())]
-    if course.deadlines:
+    if weights:
+        lines += ["", "[weights]", *(f"{name} = {weight!r}" for name, weight in weights.items())]
+    if deadlines:
         lines += ["", "[deadlines]"]
-        lines += [f"{json.dumps(stem)} = {when.isoformat()}" for stem, when in course.deadlines.items()]
+        lines += [f"{json.dumps(stem)} = {when.isoformat()}" for stem, when in deadlines.items()]
     return "\n".join(lines) + "\n"

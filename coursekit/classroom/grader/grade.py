@@ -96,9 +96,7 @@ def grade_class(
         seed = secrets.randbits(48) if seed is None else seed
     make = Jobs(course, units, seed=seed, box=box, limits=limits)
     run = {"seed": seed, "box": box, "limits": asdict(limits), **course_digests(course, units)}
-    run["points"] = {
-        e.name: course.weights.get(e.name, e.points) for unit in units for e in course.exercises(unit)
-    }
+    run["points"] = {e.name: e.points for unit in units for e in course.exercises(unit)}
     with contextlib.ExitStack() as stack:
         stack.callback(pool.close)
         if executor is None:

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .. import own
 from ..author import notebook, tables
 from ..course import Course, the_course
 from ..exercise import Exercise, nearest, thaw
@@ -75,7 +76,8 @@ def viva(
     if one is None:
         what = f"a function {exercise!r}" if exercise else "any function of an exercise"
         raise ValueError(f"{submissions / student}: the student did not write {what}{_because(notes)}")
-    asked = [_numbers(course, one, rng), _mistake(course, one, rng), Question(*frame_question(arm, rng))]
+    with own.using(arm):
+        asked = [_numbers(course, one, rng), _mistake(course, one, rng), Question(*frame_question(arm, rng))]
     out.mkdir(parents=True, exist_ok=True)
     name = page_name(student)
     sheet, answers = out / f"viva-{name}", out / f"viva-answers-instructor-only-{name}"
