@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 SAME = 1e-10  # directions (rad) and points (m) that differ by less are the same: rounding of S and M
+NEARLY = 1e-4  # rad; a common normal of lines less apart lies far away: 1 m beside becomes 10 km along
 
 Vector = Any  # three numbers, or three arrays of them: an array (3, ...) is one
 
@@ -41,9 +42,9 @@ def sine(w_1: np.ndarray, w_2: np.ndarray) -> float:
     return float(np.linalg.norm(np.cross(w_1, w_2)))
 
 
-def parallel(w_1: np.ndarray, w_2: np.ndarray) -> bool:
-    """Whether two directions are the same or opposite."""
-    return sine(w_1, w_2) < SAME
+def parallel(w_1: np.ndarray, w_2: np.ndarray, tol: float = SAME) -> bool:
+    """Whether two directions are the same or opposite; tol in rad."""
+    return sine(w_1, w_2) < tol
 
 
 def perpendicular(w_1: np.ndarray, w_2: np.ndarray) -> bool:

@@ -12,15 +12,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import checks
-from .axes import SAME, feet, foot, parallel, rotation_to, sine
+from .axes import NEARLY, SAME, feet, foot, parallel, rotation_to, sine
 
 
 @dataclass(frozen=True, eq=False)
 class Normal:
     """One step of the procedure: row i of the standard table, from axis i to the next line.
 
-    case              how the two lines lie: "skew", "meeting", "parallel" or "same line"
-    free              what that leaves open and what was taken, in words; "" where nothing is open
+    case              how the two lines lie: "skew", "nearly parallel", "meeting", "parallel" or "same line"
+    free              what that leaves open and what was taken, in words; "" where nothing is open. Nearly
+                      parallel lines have one common normal, and it may be kilometres away: that is said, too
     foot_1, foot_2    (3,) ends of the common normal, on axis i and on the next line; frame i sits at foot_2
     x                 (3,) direction of x_i
     a, alpha, d, theta  the row: metres and radians, at q = 0
@@ -84,6 +85,9 @@ def _normal(origin, z, x_before, z_next, q_next, tool):
         else:
             case, free = "skew", ""
             x, a = x * np.sign(a), abs(a)
+        if parallel(z, z_next, NEARLY):
+            case, away = "nearly parallel", f"{np.linalg.norm(foot_1 - origin):.3g} m away"
+            free = f"nothing: {sine(z, z_next):.1e} rad from parallel, the common normal is {away}"
     alpha = np.arctan2(np.cross(z, z_next) @ x, z @ z_next)
     theta = np.arctan2(np.cross(x_before, x) @ z, x_before @ x)
     d = (foot_1 - origin) @ z

@@ -28,17 +28,27 @@ JUMP = np.pi / 2  # rad between neighbouring points: more is another branch, not
 def s_curve(n: int = 101) -> np.ndarray:
     """The letter S on the sphere: n points at equal arc length. -> (n, 3), metres.
 
-    In the letter plane: an arc of radius 0.25 about (0, -0.25) from -150 to 90 degrees, and the same arc
-    turned by half a turn about the origin, where the two meet with one tangent. The plane is then laid on the
-    sphere.
+    The flat letter (`letter_s`), laid on the sphere.
 
     >>> s_curve(5).round(3).tolist()[2]      # the middle of the letter touches the plane x = 0.5
     [0.5, 0.0, 0.5]
     """
+    return resample(on_sphere(letter_s()), n)
+
+
+def letter_s() -> np.ndarray:
+    """The letter S in the letter plane, finely sampled. -> (m, 2), metres, half a metre up and down.
+
+    An arc of radius 0.25 about (0, -0.25) from -150 to 90 degrees, and the same arc turned by half a turn
+    about the origin, where the two meet with one tangent.
+
+    >>> letter_s()[400].round(12).tolist()
+    [0.0, 0.0]
+    """
     angle = np.linspace(ARC_END, np.pi / 2, ARC_SAMPLES)
     lower = ARC_RADIUS * np.stack([np.cos(angle), np.sin(angle) - 1], axis=-1)
     upper = -lower[-2::-1]  # on from the origin, which is not repeated
-    return resample(on_sphere(np.concatenate([lower, upper])), n)
+    return np.concatenate([lower, upper])
 
 
 def on_sphere(letter: ArrayLike) -> np.ndarray:
@@ -192,13 +202,14 @@ def follow(robot: Robot, T: ArrayLike) -> np.ndarray:
     return np.swapaxes(q, 0, 1)
 
 
-def trace(robot: Robot, T: ArrayLike, theta0: ArrayLike) -> np.ndarray:
+def trace(robot: Robot, T: ArrayLike, theta0: ArrayLike, rows: str = "all") -> np.ndarray:
     """Follows the poses T by numeric inverse kinematics, from pose to pose. -> (..., m, n), rad.
 
     T (m, 4, 4); theta0 (..., n) where each path starts from, near a solution of the first pose: for all that
-    are found, `ik.search(robot, T[0]).theta`. Each pose is solved from the solution before, so the path is
-    continuous, for any arm. NaN from where a pose is not reached or a joint turns by more than a quarter. A
-    redundant arm that comes back to a pose need not come back to the configuration.
+    are found, `ik.search(robot, T[0]).theta`. rows "linear": only the positions count. Each pose is solved
+    from the solution before, so the path is continuous, for any arm. NaN from where a pose is not reached or
+    a joint turns by more than a quarter. A redundant arm that comes back to a pose need not come back to the
+    configuration.
 
     >>> from coursekit import robots
     >>> panda = robots.franka_panda()
@@ -211,7 +222,7 @@ def trace(robot: Robot, T: ArrayLike, theta0: ArrayLike) -> np.ndarray:
     theta = checks.joint_angles(theta0, robot.n, robot.name)
     q = np.full((*theta.shape[:-1], len(T), robot.n), np.nan)
     for i, pose in enumerate(T):
-        found = ik.damped_least_squares(robot, pose, theta)
+        found = ik.damped_least_squares(robot, pose, theta, rows=rows)
         good = found.converged & ((i == 0) | (np.abs(found.theta - theta) < JUMP).all(axis=-1))
         theta = q[..., i, :] = np.where(good[..., None], found.theta, np.nan)
     return q

@@ -153,6 +153,20 @@ def lost_motion(robot: Robot, theta: ArrayLike) -> np.ndarray:
     return left_singular(robot.jacobian_space(theta))[0][..., :, -1]
 
 
+def weakest_motion(robot: Robot, theta: ArrayLike) -> np.ndarray:
+    """Of the motions that an arm has, the twist that joint rates give least. theta (..., n) -> (..., 6).
+
+    As lost_motion for six joints and more. An arm with n < 6 joints has n motions; the others it lacks
+    everywhere.
+
+    >>> from coursekit import robots
+    >>> weakest_motion(robots.planar_2r(), [0, 0]).round(3).tolist()        # stretched: no motion along x
+    [0.0, 0.0, 0.257, 0.0, 0.966, 0.0]
+    """
+    U = left_singular(robot.jacobian_space(theta))[0]
+    return U[..., :, min(robot.n, 6) - 1]
+
+
 def lost_motions(robot: Robot, theta: ArrayLike, tol: float = 1e-9) -> np.ndarray:
     """Every direction that is lost at one configuration. theta (n,) -> (6 - rank, 6), rows as in lost_motion.
 
@@ -191,8 +205,17 @@ def lost_wrench(robot: Robot, theta: ArrayLike) -> Wrench:
     >>> np.abs(wrench.direction).round(9).tolist(), float(abs(wrench.pitch).round(9))
     ([1.0, 0.0, 0.0], 0.0)
     """
-    lost = lost_motion(robot, theta)
-    moment, force = lost[..., :3], lost[..., 3:]
+    return wrench_of(lost_motion(robot, theta))
+
+
+def wrench_of(twist: ArrayLike) -> Wrench:
+    """A twist (..., 6) = (omega; v) read as a wrench: omega is the moment about the origin, v the force.
+
+    >>> wrench_of([0, 0, 0.5, 1, 0, 0]).point.tolist()
+    [0.0, -0.5, 0.0]
+    """
+    twist = checks.array(twist, (6,), "twist")
+    moment, force = twist[..., :3], twist[..., 3:]
     size = np.sqrt((force * force).sum(axis=-1))
     size = np.where(size < SAME, np.nan, size)[..., None]
     direction = np.where(np.isnan(size), moment, force / size)

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike
 
+from coursekit.kinematics import axes
 from coursekit.kinematics.robot import Robot
 
 # radius of the first and of the last joint, as parts of the robot's total length
@@ -76,43 +76,25 @@ def chain(robot: Robot) -> Chain:
     return Chain(foot, up, joints, tool, size)
 
 
-def common_normal(
-    p: ArrayLike, u: ArrayLike, q: ArrayLike, v: ArrayLike
-) -> tuple[np.ndarray, np.ndarray] | None:
-    """Ends (3,), (3,) of the common normal of the lines p + s u and q + t v; None where they are parallel.
-
-    >>> common_normal([0, 0, 0], [0, 0, 1], [1, 0, 2], [0, 1, 0])[1].tolist()
-    [1.0, 0.0, 2.0]
-    """
-    p, u, q, v = (np.asarray(x, float) for x in (p, u, q, v))
-    c = u @ v
-    if 1 - c * c < 1e-9:
-        return None
-    d = q - p
-    s, t = np.array([d @ u - c * (d @ v), c * (d @ u) - d @ v]) / (1 - c * c)
-    return p + s * u, q + t * v
-
-
 def _stretches(robot):
     """The joints with enter, leave and along, still without thickness."""
-    slides = [kind == "prismatic" for kind in robot.joint_types]
-    direction = [robot.S[3:, i] if slides[i] else robot.S[:3, i] for i in range(robot.n)]
+    slides, direction = [kind == "prismatic" for kind in robot.joint_types], axes.directions_of(robot.S)
     origin = robot.link_frames(np.zeros(robot.n))[:, :3, 3]
     known = robot.modified_dh is not None
-    here = _foot_of(np.zeros(3), _point_on(robot, 0, np.zeros(3), direction), direction[0])
+    here = axes.foot(np.zeros(3), _point_on(robot, 0, np.zeros(3), direction), direction[0])
     joints = []
     for i in range(robot.n):
         enter, u = here, direction[i]
         if i + 1 < robot.n:
             v = direction[i + 1]
             point = _point_on(robot, i + 1, here, direction)
-            ends = common_normal(enter, u, point, v)
-            if ends is None:  # parallel: leave where the DH table puts the frame, else at once
-                leave = _foot_of(origin[i], enter, u) if known else enter
-                ends = leave, _foot_of(leave, point, v)
-            leave, here = ends
+            if axes.parallel(u, v, axes.NEARLY):  # leave where the DH table puts the frame, else at once
+                leave = axes.foot(origin[i], enter, u) if known else enter
+                here = axes.foot(leave, point, v)
+            else:
+                leave, here = axes.feet(enter, u, point, v)
         else:
-            leave = _foot_of(robot.M[:3, 3], enter, u)
+            leave = axes.foot(robot.M[:3, 3], enter, u)
         travel = None
         if slides[i]:
             low, high = robot.q_min[i], robot.q_max[i]
@@ -124,18 +106,12 @@ def _stretches(robot):
 def _point_on(robot, i, here, direction):
     """A point of axis i. A sliding joint has no place of its own: it gets one that serves the next joint."""
     if robot.joint_types[i] == "revolute":
-        return np.cross(robot.S[:3, i], robot.S[3:, i])
+        return axes.points_on(robot.S)[i]
     if i + 1 == robot.n:
         return np.array(robot.M[:3, 3])
     if robot.joint_types[i + 1] == "prismatic":
         return here
-    q, v = np.cross(robot.S[:3, i + 1], robot.S[3:, i + 1]), direction[i + 1]
-    return _foot_of(here, q, v)
-
-
-def _foot_of(point, q, w):
-    """The point of the line q + s w nearest to `point`."""
-    return q + w * (w @ (point - q))
+    return axes.foot(here, axes.points_on(robot.S)[i + 1], direction[i + 1])
 
 
 def _total_length(joints, tool):

@@ -190,7 +190,9 @@ class JointSlider(Slider):
 
 
 class Sliders:
-    """Several sliders whose values are one vector."""
+    """Several sliders whose values are one vector. `folded`: the title under which they are folded away."""
+
+    folded = ""
 
     def __init__(self, name: str, sliders: Iterable[Slider]) -> None:
         self.name = name

@@ -34,7 +34,7 @@ import ipywidgets
 import numpy as np
 from numpy.typing import ArrayLike
 
-from coursekit.view import cells
+from coursekit.view import cells, layout
 from coursekit.view import controls as parts
 from coursekit.view.scene import Arm, Scene
 from coursekit.view.viewer import Viewer, mimebundle
@@ -123,13 +123,10 @@ class Panel(ipywidgets.VBox):
         self.line = parts.TextLine("text")
         self.line.value = self._words(values)
         super().__init__(layout=ipywidgets.Layout(width="100%"))
-        column = self._column(controls)
-        self.viewer.layout.flex, self.viewer.layout.min_width = "4 1 420px", "300px"
-        flow = ipywidgets.Layout(
-            display="flex", flex_flow="row wrap", align_items="flex-start", grid_gap="12px"
-        )
-        top = ipywidgets.Box([*([column] if controls else []), self.viewer], layout=flow)
-        self.children = [top, self.line, *self._bottom()]
+        self._reset_button = parts.Action("reset", act=self.reset)
+        column = layout.column(controls, self._reset_button) if controls else None
+        top = layout.beside(column, self.viewer)
+        self.children = [top, self.line, *layout.under(self.below)]
         for output in self.below:
             output.refresh(values) if hasattr(output, "refresh") else None
         for control in self._widgets():
@@ -249,7 +246,7 @@ class Panel(ipywidgets.VBox):
     def close(self) -> None:
         """Close every widget of the panel: nothing of it stays in the kernel or the page."""
         cells.SHOWN.pop(self, None)
-        _close_tree(self)
+        layout.close(self)
         # The notebook's Out[...] keeps the panel for ever: what it drew must not stay with it.
         if hasattr(self, "viewer"):  # a panel that was refused half-way has none
             self.viewer.forget()
@@ -259,34 +256,7 @@ class Panel(ipywidgets.VBox):
         self._update = self._text = None
         self._drivers = self._theta_sliders
 
-    # -- making it
-
-    def _column(self, controls):
-        rows, toggles = [], []
-        for control in controls:
-            if isinstance(control, parts.Toggle | parts.Action):
-                toggles.append(control)
-                control.layout.width = "auto"
-            else:
-                rows += control.sliders if isinstance(control, parts.Sliders) else [control]
-        reset = parts.Action("reset", act=self.reset)
-        reset.layout.width = "auto"
-        flow = ipywidgets.Layout(display="flex", flex_flow="row wrap", grid_gap="2px 14px", width="100%")
-        self._reset_button = reset
-        return ipywidgets.VBox(
-            [*rows, ipywidgets.Box([*toggles, reset], layout=flow)],
-            layout=ipywidgets.Layout(flex="1 1 300px", min_width="260px", max_width="460px"),
-        )
-
-    def _bottom(self):
-        if not self.below:
-            return []
-        for output in self.below:
-            output.layout.width = "auto"
-        flow = ipywidgets.Layout(
-            display="flex", flex_flow="row wrap", align_items="flex-start", grid_gap="18px"
-        )
-        return [ipywidgets.Box(self.below, layout=flow)]
+    # -- inside
 
     def _put(self, values):
         with self._silence():
@@ -387,12 +357,3 @@ class Panel(ipywidgets.VBox):
             yield
         finally:
             self._quiet = before
-
-
-def _close_tree(widget):
-    for child in getattr(widget, "children", ()):
-        _close_tree(child)
-    for attribute in ("layout", "style"):
-        if widget.has_trait(attribute):
-            getattr(widget, attribute).close()
-    ipywidgets.Widget.close(widget)

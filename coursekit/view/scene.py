@@ -364,7 +364,7 @@ class Scene:
         lines = []
         for name, one in self.robots.items():
             if one.style != "ghost":
-                joints, tool = _joints(one.robot, one.theta), one.robot.fk(one.theta)[:3, 3]
+                joints, tool = text.joints(one.robot.joint_types, one.theta), one.robot.fk(one.theta)[:3, 3]
                 who = one.robot.name + ("" if name == "robot" else f" ({name})")
                 lines.append(f"{who}: joints {joints}; tool at {text.millimetres(tool)}")
         ghosts = sum(one.style == "ghost" and one.links is None for one in self.robots.values())
@@ -386,14 +386,6 @@ class Scene:
         self._low, self._high = camera.extent(robot, theta, painted, arms)
         upright = abs(arms.up[2]) > 0.9
         self.size, self.floor = arms.size, float(arms.foot[2] if upright else min(0.0, self._low[2]))
-
-
-def _joints(robot, theta):
-    """Joint values in words: one unit for all, or each with its own."""
-    if "prismatic" not in robot.joint_types:
-        return text.degrees(theta)
-    say = {"revolute": text.degrees, "prismatic": text.millimetres}
-    return "(" + ", ".join(say[kind](q) for kind, q in zip(robot.joint_types, theta, strict=True)) + ")"
 
 
 def _below(path, root):

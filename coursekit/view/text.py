@@ -86,6 +86,18 @@ def millimetres(p: ArrayLike, digits: int = 1) -> str:
     return _with_unit(1000 * np.asarray(p, dtype=float), digits, "mm")
 
 
+def joints(types: Sequence[str], theta: ArrayLike) -> str:
+    """Joint values (n,) in radians and metres: one unit for all, or each with its own where some slide.
+
+    >>> joints(["revolute", "prismatic"], [0.5, 0.1])
+    '(28.6 deg, 100.0 mm)'
+    """
+    if "prismatic" not in types:
+        return degrees(theta)
+    say = {"revolute": degrees, "prismatic": millimetres}
+    return "(" + ", ".join(say[kind](q) for kind, q in zip(types, np.asarray(theta), strict=True)) + ")"
+
+
 def pose(T: ArrayLike) -> str:
     """Position and ZYX angles of a pose in one line. T (4, 4).
 

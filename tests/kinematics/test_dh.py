@@ -328,6 +328,20 @@ def test_a_screw_with_no_unit_direction_has_no_common_normal():
         dh.common_normal([0, 0, 1, 0], z)
 
 
+def test_axes_of_a_urdf_that_are_nearly_parallel_have_an_exact_table_and_it_is_said_how_far_away():
+    """1.5708 for a quarter turn: 3.7e-6 rad off, so two parallel axes 0.1 m apart get a frame 27 km away."""
+    z, tilted = np.array([0, 0, 1.0]), rotations.rotx(2 * 1.5708 - np.pi) @ [0, 0, 1.0]
+    w, q, M = [z, tilted], [[0, 0, 0], [0.1, 0.2, 0.3]], np.eye(4)
+    first, _ = dh.steps(w, q, M)
+    assert first.case == "nearly parallel"
+    assert first.free.startswith("nothing: 7.3e-06 rad from parallel, the common normal is ")
+    assert abs(first.d) > 1e3 and f"{abs(first.d):.3g} m away" in first.free
+    robot = Robot.from_axes(w, q, M)
+    theta = [0.4, -1.1]
+    np.testing.assert_allclose(robot.standard_dh.fk(theta), robot.fk(theta), rtol=0, atol=1e-9)
+    np.testing.assert_allclose(robot.link_frames([0, 0])[0, :3, 3], q[0], atol=1e-12)
+
+
 def test_tables_cannot_be_changed():
     table = dh.Table([0.5, 0.25], [0, 0], [0, 0], [0, 0])
     with pytest.raises(ValueError, match="read-only"):

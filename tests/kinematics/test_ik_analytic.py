@@ -123,7 +123,7 @@ def test_table_4_1_of_the_kuka_report():
 
 def test_four_solutions_of_the_kawasaki_exam_are_all_feasible():
     robot, numbers = ALL["kawasaki_s030"], load("numbers_of_the_sources")["S030 exam"]
-    found = ik.arm(robot, numbers["p_n"])
+    found = ik.first_joints(robot, numbers["p_n"])
     wanted = np.array([numbers["ik"][key] for key in ("f_plus", "f_minus", "b_minus", "b_plus")])
     assert np.allclose(turned_apart(found, wanted), 0, atol=1e-9)
     with_wrist = np.concatenate([found, np.tile(robot.home[3:], (4, 1))], axis=1)
@@ -135,7 +135,7 @@ def test_four_solutions_of_the_kawasaki_exam_are_all_feasible():
 def test_arm_is_what_analytic_uses(shape):
     robot = ALL["kuka_kr6"]
     T = robot.fk(RNG.uniform(-2, 2, (*shape, 6)))
-    first = ik.arm(robot, ik.wrist_centre(robot, T))
+    first = ik.first_joints(robot, ik.wrist_centre(robot, T))
     assert first.shape == (*shape, 4, 3)
     whole = ik.analytic(robot, T).theta.reshape(*shape, 4, 2, 6)[..., :3]
     assert np.allclose(first[..., None, :], whole, atol=1e-12, equal_nan=True)
@@ -214,7 +214,7 @@ def test_wrist_stretched_out_leaves_all_to_joint_6():
 def test_wrist_on_axis_1_takes_theta_1_zero():
     robot = ALL["abb_irb1200"]
     p = np.array([0, 0, 0.3991 + 0.6])
-    first = ik.arm(robot, p)
+    first = ik.first_joints(robot, p)
     assert np.isfinite(first).all()
     assert np.array_equal(first[:, 0], np.zeros(4))
     whole = np.concatenate([first, np.zeros((4, 3))], axis=1)
@@ -241,8 +241,8 @@ def test_end_of_the_reach_has_its_double_solution(name):
 def test_further_out_there_is_none(beyond):
     robot = ALL["abb_irb1200"]
     reach = 0.448 + np.hypot(0.451, 0.042)
-    assert np.isfinite(ik.arm(robot, [reach, 0, 0.3991])[:2]).all()
-    assert np.isnan(ik.arm(robot, [reach + beyond, 0, 0.3991])).all()
+    assert np.isfinite(ik.first_joints(robot, [reach, 0, 0.3991])[:2]).all()
+    assert np.isnan(ik.first_joints(robot, [reach + beyond, 0, 0.3991])).all()
 
 
 def test_three_parallel_axes_with_the_hand_stretched_out():
@@ -356,7 +356,7 @@ def test_nan_in_nan_out():
         assert solutions.exists[0].any()
         assert np.isnan(solutions.theta[1]).all() and not solutions.exists[1].any()
         assert solutions.reasons(1) == ("the pose holds NaN",) * len(solutions.branches)
-    assert np.isnan(ik.arm(ALL["kuka_kr6"], [np.nan, 0, 0])).all()
+    assert np.isnan(ik.first_joints(ALL["kuka_kr6"], [np.nan, 0, 0])).all()
 
 
 # -- what is refused -----------------------------------------------------------------------------------------
@@ -412,12 +412,12 @@ def test_arms_that_are_not_covered(robot, message):
         ik.analytic(robot, np.eye(4))
 
 
-def test_arm_and_wrist_centre_need_a_spherical_wrist():
+def test_first_joints_and_wrist_centre_need_a_spherical_wrist():
     for name in ("ur5", "planar_2r"):
         with pytest.raises(
-            ValueError, match="arm needs a spherical wrist: axes 4, 5 and 6 through one point"
+            ValueError, match="first_joints needs a spherical wrist: axes 4, 5 and 6 through one point"
         ):
-            ik.arm(ALL[name], [0, 0, 0])
+            ik.first_joints(ALL[name], [0, 0, 0])
         with pytest.raises(ValueError, match="wrist_centre needs a spherical wrist"):
             ik.wrist_centre(ALL[name], np.eye(4))
 
@@ -426,4 +426,4 @@ def test_what_is_no_pose():
     with pytest.raises(ValueError, match=r"KUKA KR6 R900 sixx: T is not in SE\(3\): det R = -1"):
         ik.analytic(ALL["kuka_kr6"], np.diag([1, 1, -1, 1]))
     with pytest.raises(ValueError, match=r"KUKA KR6 R900 sixx: p must have shape \(\.\.\., 3\), got \(2,\)"):
-        ik.arm(ALL["kuka_kr6"], [0, 0])
+        ik.first_joints(ALL["kuka_kr6"], [0, 0])

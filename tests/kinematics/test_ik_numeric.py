@@ -285,6 +285,17 @@ def test_position_alone():
         assert found.converged and np.allclose(planar.fk(found.theta)[:2, 3], [0.3, 0.4], atol=1e-9)
 
 
+@pytest.mark.parametrize("method", [ik.newton, ik.damped_least_squares])
+def test_position_alone_goes_straight_there_however_far_the_rotation_is(method):
+    """With the rotation free, the error is the way of the tool point: a near target takes a few steps."""
+    scara = ALL["scara"]
+    start = np.array([-1.2, 1.7, 0.1, -3.0])
+    T = np.diag([1.0, -1.0, -1.0, 1.0])  # nearly half a turn away
+    T[:3, 3] = scara.fk(start + 0.03)[:3, 3]
+    found = method(scara, T, start, rows="linear")
+    assert found.converged and found.iterations <= 5 and found.error[0] > 1
+
+
 def test_damping_shortens_the_steps_near_a_singular_pose():
     robot = ALL["franka_panda"]
     guess = np.full(7, 0.02)

@@ -131,3 +131,29 @@ def test_it_is_reproducible_and_sorted():
 def test_errors_say_what_is_valid(call, message):
     with pytest.raises(ValueError, match=message):
         call(ALL["kuka_kr6"])
+
+
+def test_given_starts_are_tried_and_do_not_count_as_chance():
+    kr6 = ALL["kuka_kr6"]
+    q = np.array([0.4, -1.1, 0.9, 0.6, 0.8, -0.3])
+    found = ik.search(kr6, kr6.fk(q), tries=1, starts=[q + 1e-3], rng=np.random.default_rng(5))
+    assert np.abs(found.theta - q).max(axis=1).min() < 1e-9
+    assert found.hits.sum() <= found.tries == 1
+    with pytest.raises(ValueError, match="has 6 joints: theta must have shape"):
+        ik.search(kr6, kr6.M, starts=[0, 0])
+
+
+def test_why_an_arm_has_no_closed_form():
+    with pytest.raises(ik.NoClosedForm, match="no analytic inverse kinematics: it has 7 joints") as caught:
+        ik.analytic(ALL["franka_panda"], np.eye(4))
+    assert caught.value.condition == "it has 7 joints: redundant, so a pose leaves 1 of them free"
+
+
+def test_limits_of_a_slide_are_told_in_millimetres():
+    assert ik.why_outside(ALL["scara"], [0, 0, 0.1, 0]) == ""
+    scara = ALL["scara"]
+    low, high = np.degrees([scara.q_min[1], scara.q_max[1]])
+    assert ik.why_outside(scara, [0, 3.0, 0.5, 0]) == (
+        f"joint 2 would need 171.9 deg; limits {low:.1f} to {high:.1f} deg; "
+        "joint 3 would need 500.0 mm; limits 0.0 to 210.0 mm"
+    )

@@ -285,3 +285,18 @@ def test_what_is_refused():
     with pytest.raises(ValueError, match="KUKA KR6 R900 sixx has 6 joints: theta must have shape"):
         singularity.factors(kr6, np.zeros(5))
     assert singularity.lost_motions(planar, np.zeros(2)).shape == (4, 6)
+
+
+def test_the_weakest_motion_of_an_arm_with_few_joints_is_one_it_has():
+    scara = robots.all()["scara"]
+    theta = np.array([0.3, 1e-4, 0.1, -0.4])  # nearly stretched
+    weakest = singularity.weakest_motion(scara, theta)
+    J = scara.jacobian_space(theta)
+    inside = J @ np.linalg.lstsq(J, weakest, rcond=None)[0]
+    np.testing.assert_allclose(inside, weakest, atol=1e-9)
+    assert np.linalg.norm(J.T @ weakest) == pytest.approx(np.linalg.svd(J, compute_uv=False)[-1])
+
+
+def test_the_weakest_motion_of_six_joints_is_the_lost_one():
+    kr6, theta = robots.all()["kuka_kr6"], [0.1, -0.9, 1.2, 0.3, 0.4, 0.5]
+    np.testing.assert_array_equal(singularity.weakest_motion(kr6, theta), singularity.lost_motion(kr6, theta))

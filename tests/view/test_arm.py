@@ -180,22 +180,6 @@ def test_the_skeleton_reaches_a_slide_that_is_out():
         assert (stick + q).min() <= enter @ along + 1e-9 <= (stick + q).max() + 2e-9
 
 
-@pytest.mark.parametrize("seed", range(20))
-def test_common_normal_is_the_shortest_way(seed):
-    rng = np.random.default_rng(seed)
-    p, q = rng.normal(size=(2, 3))
-    u, v = (w / np.linalg.norm(w) for w in rng.normal(size=(2, 3)))
-    a, b = chain.common_normal(p, u, q, v)
-    assert abs((b - a) @ u) < 1e-9
-    assert abs((b - a) @ v) < 1e-9
-    np.testing.assert_allclose(np.cross(a - p, u), 0, atol=1e-9)
-    np.testing.assert_allclose(np.cross(b - q, v), 0, atol=1e-9)
-
-
-def test_parallel_axes_have_no_single_common_normal():
-    assert chain.common_normal([0, 0, 0], [0, 0, 1], [1, 0, 0], [0, 0, -1]) is None
-
-
 def test_skeleton_axes_lie_on_the_screws():
     robot = robots.puma560()
     for S, parts in zip(robot.S.T, arm.skeleton(robot)[1:], strict=True):

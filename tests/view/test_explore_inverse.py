@@ -109,11 +109,23 @@ def test_every_arm_with_a_formula(name):
         panel.close()
 
 
-def test_an_arm_without_a_formula_is_refused_before_anything_is_made():
-    before = len(ipywidgets.widgets.widget._instances)
-    with pytest.raises(ValueError, match="Panda"):
-        view.explore_inverse(robots.franka_panda())
-    assert len(ipywidgets.widgets.widget._instances) == before
+def test_the_redundant_arm_goes_on_from_where_it_stands():
+    """Endlessly many solutions: the ones that are shown follow the target, as the one chosen does."""
+    panda = robots.franka_panda()
+    panel = view.explore_inverse(panda)
+    try:
+        panel.set(solution=3)
+        before = {name: arm.theta for name, arm in panel.scene.robots.items()}
+        T = panda.fk(panel.scene.robots["robot"].theta)
+        for step in range(1, 6):
+            panel.set(pose=pose_values(T) + [0, 0, -0.005 * step, 0, 0, 0])
+        names = {name for name in before if name in panel.scene.robots}
+        went = {name: np.abs(panel.scene.robots[name].theta - before[name]).max() for name in names}
+        assert went["robot"] < 0.3
+        assert sum(way < 0.5 for way in went.values()) >= 6
+        assert "endlessly many, 8 of them shown" in panel.line.value
+    finally:
+        panel.close()
 
 
 def test_a_picture_a_line_and_no_leak():

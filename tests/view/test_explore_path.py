@@ -4,7 +4,7 @@ import ipywidgets
 import numpy as np
 import pytest
 
-from coursekit import path, robots, view
+from coursekit import Robot, path, robots, view
 from coursekit.view import png, text
 
 
@@ -120,10 +120,10 @@ def test_a_curve_of_ones_own():
 
 def test_what_cannot_be_followed_is_refused():
     before = len(ipywidgets.widgets.widget._instances)
-    with pytest.raises(ValueError, match="redundant"):
-        view.explore_path(robots.franka_panda())
     with pytest.raises(ValueError, match="cannot follow this path: it reaches 0 of 101"):
-        view.explore_path(robots.planar_2r())
+        view.explore_path(robots.planar_2r(), path.s_curve(51))
+    with pytest.raises(ValueError, match="lift has one joint"):
+        view.explore_path(Robot.from_axes([[0, 0, 1]], [[0, 0, 0]], np.eye(4), "P", name="lift"))
     assert len(ipywidgets.widgets.widget._instances) == before
 
 

@@ -52,10 +52,31 @@ def test_an_arm_whose_last_axes_do_not_meet_has_no_wrist_frame(name):
     panel.close()
 
 
-def test_a_slide_is_refused_by_name():
-    slide = Robot.from_axes([[0, 0, 1]], [[0, 0, 0]], np.eye(4), joint_types="P", name="lift")
-    with pytest.raises(ValueError, match="lift has a prismatic joint"):
-        view.explore_screws(slide)
+def test_a_slide_turns_nothing_and_has_a_direction():
+    """The SCARA's third joint: S = (0; v), whatever the point."""
+    panel = view.explore_screws(robots.scara())
+    try:
+        panel.set(joint="joint 3")
+        way = robots.scara().S[3:, 2]
+        assert f"column 3 of S = {text.row([0, 0, 0, *way])}    (0; v)" in panel.line.value
+        panel.set(slide=0.2, frame="flange frame: B")
+        seen = robots.scara().M[:3, :3].T @ way
+        assert f"column 3 of B = {text.row([0, 0, 0, *seen])}    (0; v)" in panel.line.value
+        assert "w = 0" in panel.line.value and not panel.scene.parts["/ck/lever"]
+        panel.set(turn=0.1, joint="joint 1")
+        assert panel.values["turn"] == 0, "a length is no angle: the slider starts anew"
+    finally:
+        panel.close()
+
+
+def test_a_screw_with_a_pitch_slides_as_it_turns():
+    S = np.array([[0, 0, 1, 0, 0, 0.05], [0, 1, 0, -0.4, 0, 0]]).T
+    panel = view.explore_screws(Robot.from_screws(S, np.eye(4), name="lead screw"))
+    try:
+        panel.set(joint="joint 1")
+        assert "v = -w x q + h w, with a pitch h of 50.0 mm per rad" in panel.line.value
+    finally:
+        panel.close()
 
 
 def test_it_has_a_picture_and_a_stable_line(panel):

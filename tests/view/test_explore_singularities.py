@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from coursekit import Robot, robots, singularity, view
+from coursekit.kinematics import axes
 from coursekit.view import png
 from coursekit.view.explorers import singularities
 from tests.kinematics.conftest import GOLDEN_ROBOTS, SIX_HINGES, load
@@ -128,12 +129,55 @@ def test_another_robot_starts_regular(panel):
         assert bool(robot.within_limits(panel.values["theta"]))
 
 
-def test_one_robot_only_and_which_are_refused():
+def test_one_robot_only():
     panel = view.explore_singularities(robots.ur5())
     assert "robot" not in panel.values
     panel.close()
-    with pytest.raises(ValueError, match="Panda has no factors wrist, elbow, shoulder: the arm has 7 joints"):
-        view.explore_singularities(robots.franka_panda())
+
+
+def test_an_arm_whose_det_J_does_not_split_says_why():
+    w, q = axes.directions_of(KR6.S), axes.points_on(KR6.S)
+    w[2] = [0, 0.6, 0.8]
+    askew = Robot.from_axes(w, q, KR6.M, name="askew")
+    theta = np.array([0.1, -0.7, 0.9, 0.5, 0.8, 0.2])
+    det = np.linalg.det(askew.jacobian_space(theta))
+    said = singularities.words(askew, theta)
+    reason = "axes 2 and 3 are not parallel"
+    assert f"det J = {det:.6f}, not a product of wrist, elbow and shoulder: {reason}" in said
+    assert "rank 6: regular" in said and said.splitlines()[-1].endswith("at the tool")
+
+
+@pytest.mark.parametrize(
+    ("name", "theta"),
+    [
+        ("franka_panda", np.zeros(7)),
+        ("stanford", [0, np.pi / 2, 0.3, 0, 0, 0]),
+    ],
+)
+def test_other_arms_lose_motions_too(name, theta):
+    robot = robots.all()[name]
+    rank = int(singularity.rank(robot, theta))
+    assert rank < 6
+    assert f"rank {rank}: singular" in singularities.words(robot, theta)
+
+
+def test_the_tool_point_of_a_stretched_planar_arm():
+    said = singularities.words(robots.planar_2r(), [0.3, 0.0])
+    assert "2 joints: 4 of 6 motions are lost everywhere" in said
+    assert said.endswith("rank 1 of 2, singular")
+
+
+def test_the_weakest_pose_by_one_joint_is_no_worse_than_any_other():
+    stanford = robots.stanford()
+    theta = np.array([0.2, 0.9, 0.5, 0.3, 0.7, 0.1])
+    end = singularities.weakest(stanford, theta)
+    assert (end != theta).sum() == 1 and stanford.within_limits(end)
+    low, high = singularities.nb04.ends_of(stanford)
+    for joint in range(6):
+        turned = np.tile(theta, (500, 1))
+        turned[:, joint] = np.linspace(low[joint], high[joint], 500)
+        others = singularity.sigma_min(stanford, turned)
+        assert singularity.sigma_min(stanford, end) < 1.02 * others.min() + 1e-6
 
 
 def test_an_arm_without_factors_is_not_offered(monkeypatch):

@@ -82,7 +82,7 @@ class Solutions:
             )
         missing = _why_missing(self.robot, self.T[index])
         return tuple(
-            _why_outside(self.robot, theta) if exists else reason
+            why_outside(self.robot, theta) if exists else reason
             for theta, exists, reason in zip(self.theta[index], self.exists[index], missing, strict=True)
         )
 
@@ -108,8 +108,8 @@ def analytic(robot: Robot, T: ArrayLike) -> Solutions:
     taken. With the hand stretched out, the turn about axis 4 is taken to be 0 (for three parallel axes: such
     that the elbow is bent as nearly to 90 deg as can be), and joint 6 does the rest.
 
-    NaN in, NaN out. Raises ValueError if T is not in SE(3), and for an arm of another kind: the text names
-    the condition that fails.
+    NaN in, NaN out. Raises ValueError if T is not in SE(3), and NoClosedForm (a ValueError) for an arm of
+    another kind: the text names the condition that fails.
 
     >>> from coursekit import ik, robots
     >>> kr6 = robots.kuka_kr6()
@@ -135,17 +135,17 @@ def analytic(robot: Robot, T: ArrayLike) -> Solutions:
     return Solutions(robot, T, theta, g.branches)
 
 
-def arm(robot: Robot, p: ArrayLike) -> np.ndarray:
+def first_joints(robot: Robot, p: ArrayLike) -> np.ndarray:
     """Joints 1 to 3 of an arm with a spherical wrist for the wrist centre p. p (..., 3) m -> (..., 4, 3) rad.
 
     The four solutions: front up, front down, back up, back down; NaN where there is none. The names are
     explained in `analytic`. Source: Robotics I exam, 17 June 2019, exercise 1d.
 
     >>> from coursekit import ik, robots
-    >>> ik.arm(robots.kawasaki_s030(), [1.23, 0, 1.55])[0, :2].round(4).tolist()
+    >>> ik.first_joints(robots.kawasaki_s030(), [1.23, 0, 1.55])[0, :2].round(4).tolist()
     [0.0, 1.5708]
     """
-    g = _spherical(robot, "arm")
+    g = _spherical(robot, "first_joints")
     p = checks.array(p, (3,), f"{robot.name}: p")
     local = (p.reshape(-1, 3) - g.frame[:3, 3]) @ g.frame[:3, :3]
     t1, target = reach(g, local.T.reshape(3, 1, 1, 1, -1))
@@ -214,11 +214,17 @@ def _metres(x):
     return f"{x:.3f} m" if x > 5e-4 else f"{x:.1e} m"
 
 
-def _why_outside(robot, theta):
-    """Which joints a configuration needs outside their limits, or ""."""
-    turned = robot.nearest_turn(theta)
-    return "; ".join(
-        f"joint {i + 1} would need {np.degrees(turned[i]):.1f} deg; "
-        f"limits {np.degrees(robot.q_min[i]):.1f} to {np.degrees(robot.q_max[i]):.1f} deg"
-        for i in np.flatnonzero(~robot.inside(theta))
-    )
+def why_outside(robot: Robot, theta: ArrayLike) -> str:
+    """Which joints a configuration theta (n,) needs outside their limits, in words; "" where it keeps them.
+
+    >>> from coursekit import robots
+    >>> why_outside(robots.scara(), [0, 0, 0.5, 0])
+    'joint 3 would need 500.0 mm; limits 0.0 to 210.0 mm'
+    """
+    sentences = []
+    for i in np.flatnonzero(~robot.inside(theta)):
+        per, unit = (180 / np.pi, "deg") if robot.joint_types[i] == "revolute" else (1000, "mm")
+        needed, low, high = (per * q[i] for q in (robot.nearest_turn(theta), robot.q_min, robot.q_max))
+        limits = f"limits {low:.1f} to {high:.1f} {unit}"
+        sentences.append(f"joint {i + 1} would need {needed:.1f} {unit}; {limits}")
+    return "; ".join(sentences)

@@ -23,6 +23,7 @@ NEAR_PI = 1e-6  # rad; closer than this to half a turn the rotation vector is ta
 TINY = 1e-200  # keeps 0/0 out of quotients whose limit is known
 SETTLED = 1e-6  # `closest` ends where a step promises less than this share of the score
 DOWNHILL = 100  # steps of `closest`
+LEAST_DAMPING = 1e-13
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +74,8 @@ def iterate(
 ) -> State:
     """theta <- theta + rule(J, e) from guess (N, n) towards goals (N, 4, 4). -> State.
 
-    rows "linear": J and e without the rotation. history: a list that collects the Steps of a single target.
+    rows "linear": J without the rotation, and e is the way that the tool point has to go.
+    history: a list that collects the Steps of a single target.
     """
     state = State.new(*guess.shape)
     used = slice(0 if rows == "all" else 3, 6)
@@ -92,7 +94,7 @@ def _iterate_block(robot, goals, theta, rule, max_iterations, tol, used, state):
     """Many targets: those that are done leave the block."""
     active, goals = np.arange(len(goals)), _arrays(goals)
     for k in range(max_iterations + 1):
-        Jt, omega, v, _, error = look(robot, theta, goals)
+        Jt, omega, v, gap, error = look(robot, theta, goals)
         error = np.stack(error, axis=-1)
         counted = error[:, used.start // 3 :]
         score = (counted * counted).sum(axis=-1)
@@ -105,7 +107,7 @@ def _iterate_block(robot, goals, theta, rule, max_iterations, tol, used, state):
         go_on = ~(done | lost)
         if k == max_iterations or not go_on.any():
             return
-        e = np.stack([*omega, *v], axis=-1)[:, used]
+        e = np.stack([*omega, *v] if used.start == 0 else gap, axis=-1)
         J = np.swapaxes(Jt, -1, -2)[:, used]
         if not go_on.all():
             active, theta, J, e = active[go_on], theta[go_on], J[go_on], e[go_on]
@@ -117,7 +119,7 @@ def _iterate_one(robot, goal, theta, rule, max_iterations, tol, used, state, his
     """One target: the same in plain numbers, on which numpy's calls would cost more than the arithmetic."""
     goal, best, step = _numbers(goal), math.inf, 0.0
     for k in range(max_iterations + 1):
-        Jt, omega, v, _, error = look(robot, theta, goal)
+        Jt, omega, v, gap, error = look(robot, theta, goal)
         counted = error[used.start // 3 :]
         score = sum(x * x for x in counted)
         if history is not None:
@@ -128,7 +130,7 @@ def _iterate_one(robot, goal, theta, rule, max_iterations, tol, used, state, his
         state.converged[0], state.diverged[0] = max(counted) < tol, not math.isfinite(score)
         if state.converged[0] or state.diverged[0] or k == max_iterations:
             return
-        change = rule(Jt.T[used], np.array([*omega, *v][used]))
+        change = rule(Jt.T[used], np.array([*omega, *v] if used.start == 0 else gap))
         theta, step = theta + change, math.sqrt(change @ change)
 
 
@@ -165,7 +167,8 @@ def closest(robot: Robot, goals: np.ndarray, theta: np.ndarray, tol: float, rows
                 np.where(good.reshape(-1, *[1] * (a.ndim - 1)), a, b)
                 for a, b in zip(there, here, strict=True)
             )
-            damping2 = damping2 * np.where(good, 0.25, 4.0)
+            # never none at all: J^T J of a planar arm has no inverse
+            damping2 = np.maximum(damping2 * np.where(good, 0.25, 4.0), LEAST_DAMPING)
     state = State.new(*theta.shape)
     state.theta[:], state.error[:], state.score[:], state.converged[:] = theta, error, score, done
     return state

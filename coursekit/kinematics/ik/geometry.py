@@ -32,6 +32,14 @@ class TwoHinges:
     branches = ("elbow-up", "elbow-down")
 
 
+class NoClosedForm(ValueError):
+    """An arm that the formulas do not cover; `condition` says what it lacks."""
+
+    def __init__(self, robot: Robot, condition: object) -> None:
+        self.condition = str(condition)
+        super().__init__(f"{robot.name}: no analytic inverse kinematics: {condition}; use the numeric ones")
+
+
 @dataclass(frozen=True, eq=False)
 class SixHinges:
     """Six hinges: coordinates (forward, up, side) in the frame of the arm, side = forward cross up.
@@ -64,7 +72,7 @@ class SixHinges:
 
 @lru_cache(maxsize=64)  # of a frozen Robot, by identity
 def geometry(robot: Robot) -> TwoHinges | SixHinges:
-    """TwoHinges or SixHinges of a robot; a ValueError names the first condition that fails."""
+    """TwoHinges or SixHinges of a robot; NoClosedForm names the first condition that fails."""
     for i, (kind, slide) in enumerate(zip(robot.joint_types, robot.links.slides, strict=True)):
         if slide:
             what = "a screw with a pitch" if kind == "revolute" else kind
@@ -184,4 +192,4 @@ def _perpendicular(robot, w, i, j):
 
 
 def _refuse(robot, condition):
-    raise ValueError(f"{robot.name}: no analytic inverse kinematics: {condition}; use the numeric ones")
+    raise NoClosedForm(robot, condition)

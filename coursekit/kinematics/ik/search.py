@@ -26,7 +26,7 @@ class Found:
     """What `search` found for one pose.
 
     theta      (k, n) distinct solutions, rad in (-pi, pi] or m, in the order of their joints
-    hits       (k,) how many tries ended at each
+    hits       (k,) how many of the random starts ended at each
     isolated   (k,) False for one of a whole family: from there the joints can move while the tool rests
     tries      number of random starts
     """
@@ -61,6 +61,7 @@ def search(
     tries: int = 100,
     tol: float = 1e-10,
     rows: str = "all",
+    starts: ArrayLike | None = None,
     rng: np.random.Generator | None = None,
 ) -> Found:
     """Distinct solutions for one pose T (4, 4), found downhill from random starts. -> Found.
@@ -68,6 +69,7 @@ def search(
     tries   number of starts: hinges anywhere on the circle, slides within their limits
     tol     rad and m, for the angle and the distance that are left
     rows    "all", or "linear": position alone
+    starts  (m, n) configurations to begin from beside the random ones: such as solutions of a pose nearby
     rng     numpy Generator; None: np.random.default_rng(0)
 
     Joint limits do not restrict the search; `within_limits` tells which solutions keep them. Raises
@@ -88,11 +90,14 @@ def search(
     low = np.where(np.isfinite(robot.q_min), robot.q_min, robot.home - STROKE)
     high = np.where(np.isfinite(robot.q_max), robot.q_max, robot.home + STROKE)
     low, high = np.where(turns, -np.pi, low), np.where(turns, np.pi, high)
-    starts = rng.uniform(low, high, (tries, robot.n))
-    ends = closest(robot, np.broadcast_to(T, (tries, 4, 4)), starts, tol, rows)
+    begin = rng.uniform(low, high, (tries, robot.n))
+    if starts is not None:
+        begin = np.concatenate([checks.joint_angles(starts, robot.n, robot.name).reshape(-1, robot.n), begin])
+    ends = closest(robot, np.broadcast_to(T, (len(begin), 4, 4)), begin, tol, rows)
     theta = ends.theta[ends.converged]
     theta = np.where(turns, -np.remainder(np.pi - theta, 2 * np.pi) + np.pi, theta)
-    found, hits = _distinct(theta, turns)
+    by_chance = np.flatnonzero(ends.converged) >= len(begin) - tries
+    found, hits = _distinct(theta, turns, by_chance)
     order = np.lexsort(found.round(6).T[::-1])
     found, hits = found[order], hits[order]
     J = robot.jacobian_body(found)[:, 0 if rows == "all" else 3 :]
@@ -101,14 +106,14 @@ def search(
     return Found(robot, found, hits, isolated, tries)
 
 
-def _distinct(theta, turns):
-    """Solutions that differ, angles compared round the circle, and how often each occurs."""
+def _distinct(theta, turns, by_chance):
+    """Solutions that differ, angles compared round the circle, and how often chance led to each."""
     found, hits = [], []
     while len(theta):
         apart = theta - theta[0]
         apart = np.where(turns, np.remainder(apart + np.pi, 2 * np.pi) - np.pi, apart)
         same = np.abs(apart).max(axis=-1) < SAME_SOLUTION
         found.append(theta[0])
-        hits.append(same.sum())
-        theta = theta[~same]
+        hits.append(by_chance[same].sum())
+        theta, by_chance = theta[~same], by_chance[~same]
     return np.array(found).reshape(-1, len(turns)), np.array(hits, dtype=int)

@@ -77,6 +77,7 @@ class _Conventions(Explorer):
                 scene.frame(f"{self.arm.link(k)}/{name}", T, letter=f"{name[0]}{k}", size=0.1 * scene.size)
                 for k, T in enumerate(poses)
             ]
+        self.far = list(_far_frames(robot, scene.size))
         self.joints.fit(robot)
 
     def update(self, values):
@@ -104,7 +105,8 @@ class _Conventions(Explorer):
             )
         matrices = np.array(list(poses.values()))
         apart = float(np.max(matrices.max(axis=0) - matrices.min(axis=0)))
-        return "\n".join([*lines, f"largest difference between any two matrix entries: {apart:.1e}"])
+        agree = f"largest difference between any two matrix entries: {apart:.1e}"
+        return "\n".join([*lines, agree, *self.far])
 
     # -- the arm by the student's functions
 
@@ -191,6 +193,19 @@ def _product(first, factors):
         T = T @ A
         products.append(T)
     return np.array(products)
+
+
+def _far_frames(robot, size):
+    """Sentences about DH frames far outside the picture: where axes are parallel but for rounding."""
+    for name, table in _tables(robot).items():
+        places = table.frames(np.zeros(robot.n))[:, :3, 3]
+        away = np.linalg.norm(places, axis=1)
+        k = int(away.argmax())
+        if away[k] > 100 * size:
+            yield (
+                f"{name} DH: frame {k + 1} stands {away[k] / 1000:.3g} km away, where nearly parallel axes "
+                "have their common normal (`dh.steps`)"
+            )
 
 
 def _tables(robot):

@@ -5,18 +5,21 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from coursekit.kinematics import ik, robots, rotations
+from coursekit.kinematics import ik, robots
 from coursekit.kinematics.robot import Robot
 from coursekit.view import text
-from coursekit.view.controls import Action, Slider, Sliders, Table, Toggle, joint_sliders
+from coursekit.view.controls import Action, Table, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
+from coursekit.view.explorers.solver import Solver
 from coursekit.view.paint import PALETTE
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
+from coursekit.view.target import pose_of, pose_sliders
 
 # The pose of table 4.1 of the TPK4170 report (2021) for the KR6; a pose in reach for every other arm.
 CONFIGURATION = (2.0, -1.0, -1.0, 2.5, 0.6, 0.0)
 GUESS = (-1.0, -2.0, 1.0, 0.0, 0.3, 0.0)
+FROM_HOME = (0.5, 0.3, -0.3, 0.4)  # rad, of an arm without a closed form; a slide goes a fifth of that in m
 STEPS = 50
 
 
@@ -28,7 +31,7 @@ def explore_inverse(
 ) -> Panel:
     """Open the explorer of inverse kinematics.
 
-    Six sliders say where the tool should be. The branch chosen in the table is drawn solid, every other
+    Six sliders say where the tool should be. The way chosen in the table is drawn solid, every other
     solution translucent; the table gives all joint angles and why a solution is outside the limits or does
     not exist. Newton's method starts from the guess of the last sliders; its error is plotted, and the button
     shows its steps. A target out of reach leaves the solid arm where it was and shows the closest pose found
@@ -37,7 +40,8 @@ def explore_inverse(
     Parameters
     ----------
     robot : Robot, optional
-        An arm with an analytic solution (`ik.analytic`); the KUKA KR6 without it. ValueError for any other.
+        Any arm; the KUKA KR6 without it. Where it has no closed form (`ik.analytic`), the solutions are those
+        that random starts find, as the text says.
     target : (4, 4), optional
         Where the tool should be at first.
     mine : function, list or dict of functions, optional
@@ -48,16 +52,18 @@ def explore_inverse(
 
 
 class _Inverse(yours.Inverse, Explorer):
-    """The target, its solutions, the branch that is shown and Newton's run."""
+    """The target, its solutions, the one that is shown and Newton's run."""
 
     name, title, opener = "inverse", "Explorer of inverse kinematics", "explore_inverse"
 
     def __init__(self, robot, target, mine):
         super().__init__(robot, mine)
-        self.T = robot.fk(np.resize(CONFIGURATION, robot.n)) if target is None else np.array(target, float)
-        solutions = ik.analytic(robot, self.T)  # refuses arms without an analytic solution
-        self.chosen = int(solutions.nearest(np.resize(CONFIGURATION, robot.n)))
-        self.shown = _half_turns(solutions.turned)[self.chosen]
+        self.solver = Solver(robot)
+        start = _configuration(robot, self.solver.closed)
+        self.T = robot.fk(start) if target is None else np.array(target, float)
+        self.ways = self.solver.solve(self.T, start[None])
+        self.chosen = self.solver.nearest(self.ways, start)
+        self.shown = self.ways.theta[self.chosen] if self.chosen >= 0 else start
         self.arm = self.scene.robot(robot, self.shown)
         self.target = self.scene.frame("/ck/target", self.T, size=0.08 * self.scene.size)
 
@@ -68,7 +74,7 @@ class _Inverse(yours.Inverse, Explorer):
         for slider in guess.sliders:
             slider.label = f"guess {slider.label}"
         return [
-            Sliders("pose", _pose_sliders(self.T, np.ceil(12 * self.scene.size) / 10)),
+            pose_sliders(self.T, robot),
             Toggle("others", "other solutions", start=True),
             Toggle("trace", "Newton's way"),
             Action("steps", "show Newton's steps", self.play),
@@ -76,9 +82,10 @@ class _Inverse(yours.Inverse, Explorer):
         ]
 
     def below(self):
-        all_solutions = "All solutions; choose one."
+        which = "All solutions" if self.solver.closed else "Solutions found by restarts"
         left = "Newton from the guess: angle (circles) and distance (squares) left before each step."
-        return [Table("solution", self.table, all_solutions, True, self.chosen), Plot(self.plot, left)]
+        self.list = Table("solution", self.table, f"{which}; choose one.", True, self.chosen)
+        return [self.list, Plot(self.plot, left)]
 
     def update(self, values):
         self.solve(values["pose"], values["guess"], values["solution"])
@@ -95,20 +102,25 @@ class _Inverse(yours.Inverse, Explorer):
         self.panel.play(self.steps(), fps=2.0)
 
     def solve(self, pose, guess, row):
-        self.T = np.eye(4)
-        self.T[:3, :3], self.T[:3, 3] = rotations.from_zyx(pose[3:]), pose[:3]
-        self.solutions = ik.analytic(self.robot, self.T)
-        exists = self.solutions.exists
+        """The ways to the target, which of them is shown, and Newton's run."""
+        before, self.T = self.T, pose_of(pose)
+        if self.solver.closed or not np.array_equal(before, self.T):
+            known = self.ways.theta if self.ways.exists.any() else self.shown[None]
+            self.ways = self.solver.solve(self.T, known)
+            if not self.solver.closed:  # rows come and go: the same row may be another solution now
+                row = self.solver.nearest(self.ways, self.shown)
+                self.list.put(row)
+        exists = self.ways.exists
         if 0 <= row < len(exists) and exists[row]:
             self.chosen = row
         elif exists.any() and not exists[self.chosen]:
-            self.chosen = int(self.solutions.nearest(self.shown))
-        self.reached = bool(exists.any())
-        self.theta = _half_turns(self.solutions.turned)
+            self.chosen = self.solver.nearest(self.ways, self.shown)
+        self.reached, self.theta = bool(exists.any()), self.ways.theta
         if self.reached:
-            self.shown = self.theta[self.chosen]
-        rows = "linear" if self.robot.n < 6 else "all"
-        self.found = ik.newton(self.robot, self.T, guess, max_iterations=STEPS, tol=1e-9, rows=rows)
+            self.shown = self.ways.theta[self.chosen]
+        self.found = ik.newton(
+            self.robot, self.T, guess, max_iterations=STEPS, tol=1e-9, rows=self.solver.rows
+        )
 
     def others(self):
         """Ghost name -> configuration: the other solutions or, out of reach, the closest pose found.
@@ -119,8 +131,8 @@ class _Inverse(yours.Inverse, Explorer):
             return {"closest": self.found.theta}
         return {
             f"branch{k}": theta
-            for k, theta in enumerate(self.theta)
-            if self.solutions.exists[k] and (k != self.chosen or self.frame is not None)
+            for k, theta in enumerate(self.ways.theta)
+            if self.ways.exists[k] and (k != self.chosen or self.frame is not None)
         }
 
     def draw_ghosts(self, wanted):
@@ -143,49 +155,60 @@ class _Inverse(yours.Inverse, Explorer):
         return np.array([step.theta for step in self.found.history])
 
     def words(self, values):
-        exists, inside = self.solutions.exists, self.solutions.within_limits
         lines = [f"target: {text.pose(self.T)}"]
         if self.reached:
-            count = f"{exists.sum()} of {len(exists)} solutions, {inside.sum()} inside the limits"
-            lines += [f"{count}; {self.which()}"]
-        else:
+            lines += [f"{self.ways.count}; {self.which()}"]
+        elif self.solver.closed:
             lines += [f"out of reach: no solution; {self.which()}"]
+        else:
+            lines += [f"out of reach: no restart found a solution; {self.which()}"]
+        if not self.solver.closed:
+            lines += [f"no closed form for this arm: {self.solver.why_not}"]
         return "\n".join([*lines, f"Newton from the guess: {self.verdict()}"])
+
+    def say(self, theta):
+        return text.joints(self.robot.joint_types, theta)
 
     def which(self):
         """What the solid arm shows."""
         if self.frame is None:
-            name = f"shown: {self.solutions.branches[self.chosen]}," if self.reached else "the arm stays at"
-            return f"{name} {text.degrees(self.shown)}"
+            name = f"shown: {self.ways.names[self.chosen]}," if self.reached else "the arm stays at"
+            return f"{name} {self.say(self.shown)}"
         step = self.found.history[self.frame]
         angle, distance = text.degrees(step.error[0]), text.millimetres(step.error[1])
-        at = f"{self.frame} of {self.found.iterations}, {text.degrees(step.theta)}"
+        at = f"{self.frame} of {self.found.iterations}, {self.say(step.theta)}"
         return f"shown: Newton's step {at}, {angle} and {distance} away"
 
     def verdict(self):
         """What Newton's method came to, in words."""
         angle, distance = self.found.error
         if self.found.converged:
-            branch = self.solutions.branches[int(self.solutions.nearest(self.found.theta))]
-            return f"{self.found.iterations} steps to {branch}"
+            return f"{self.found.iterations} steps to {self.reached_by_newton()}"
         left = f"{text.degrees(angle)} and {text.millimetres(distance)} away"
         return f"no solution in {STEPS} steps; the closest pose found is {left}"
 
+    def reached_by_newton(self):
+        """The name of the solution at which Newton's method ended."""
+        nearest = self.solver.nearest(self.ways, self.found.theta)
+        if self.solver.closed:
+            return self.ways.names[nearest]
+        if nearest >= 0:
+            away = self.solver.apart(self.ways.theta[nearest], self.found.theta)
+            if np.abs(away).max() < 1e-3:
+                return self.ways.names[nearest]
+        return f"another solution, {self.say(self.solver.apart(self.found.theta, 0))}"
+
     def table(self, values):
-        """Header and rows: branch, joint angles in degrees, whether the limits are kept, or why not."""
-        header = ["branch", *(f"θ{i + 1} [deg]" for i in range(self.robot.n)), "limits"]
+        """Header and rows: branch, joint values, whether the limits are kept, or why not."""
+        per = np.where(self.solver.turns, 180 / np.pi, 1000.0)
+        units = ["deg" if turns else "mm" for turns in self.solver.turns]
+        header = ["branch" if self.solver.closed else "solution"]
+        header += [*(f"θ{i + 1} [{unit}]" for i, unit in enumerate(units)), "limits"]
         rows = []
-        for branch, theta, inside, reason in zip(
-            self.solutions.branches,
-            np.degrees(self.theta),
-            self.solutions.within_limits,
-            self.solutions.reasons(),
-            strict=True,
-        ):
-            missing = "does not exist" if np.isnan(theta[0]) else ""
-            rows.append(
-                [branch, *(text.number(t, 1) for t in theta), "inside" if inside else reason or missing]
-            )
+        for k, name in enumerate(self.ways.names):
+            reason = self.ways.reasons[k] or ("" if self.ways.exists[k] else "does not exist")
+            values_shown = (text.number(t, 1) for t in per * self.ways.theta[k])
+            rows.append([name, *values_shown, "inside" if self.ways.inside[k] else reason])
         return header, rows
 
     def plot(self, figure, values):
@@ -207,16 +230,10 @@ class _Inverse(yours.Inverse, Explorer):
         ax.legend(frameon=False)
 
 
-def _half_turns(theta):
-    """Half a turn is +180 degrees, whichever way rounding went."""
-    return np.where(np.abs(theta + np.pi) < 1e-9, np.pi, theta)
-
-
-def _pose_sliders(T, reach):
-    """x, y, z and yaw, pitch, roll of the target."""
-    turns = rotations.zyx(T[:3, :3])
-    ends = {"yaw": np.pi, "pitch": np.pi / 2, "roll": np.pi}
-    return [
-        *(Slider(n, p, -reach, reach, "mm") for n, p in zip("xyz", T[:3, 3], strict=True)),
-        *(Slider(n, t, -ends[n], ends[n], "deg") for n, t in zip(ends, turns, strict=True)),
-    ]
+def _configuration(robot, closed):
+    """Where the explorer opens."""
+    if closed:
+        return np.resize(CONFIGURATION, robot.n)
+    turns = np.array([kind == "revolute" for kind in robot.joint_types])
+    away = np.resize(FROM_HOME, robot.n) * np.where(turns, 1, 0.2)
+    return np.clip(robot.home + away, robot.q_min, robot.q_max)

@@ -13,6 +13,7 @@ from coursekit.view.controls import Action, Slider, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
+from coursekit.view.target import pose_of, pose_sliders
 
 STRETCHED = (0.0, 0.6, 0.0, -0.08, 0.0, 0.5, 0.7)  # of the Panda: elbow almost straight
 NEARLY_ZERO = 0.05  # rad or m; the start of every other arm
@@ -42,7 +43,8 @@ def explore_jacobians(
 
     The sliders set the configuration. At the tool stand the ellipsoids of its linear and angular velocity
     for joint rates of length 1; the text gives their true half axes. Newton's method and damped least squares
-    start where the arm stands and go for the frame {d}; the plot shows how long their steps are.
+    start where the arm stands and go for the frame {d}, which six sliders move; the plot shows how long their
+    steps are.
 
     Parameters
     ----------
@@ -76,12 +78,15 @@ class _Jacobians(yours.Jacobians, Explorer):
             singularity.sigma_min(robot, goal) < 0.05
         ):  # a goal that is singular itself shows nothing but slowness
             goal = np.clip(goal + 0.5, robot.q_min, robot.q_max)
-        self.target, self.near = robot.fk(goal), _nearly_singular(robot)
+        self.near = _nearly_singular(robot)
+        self.pose = pose_sliders(robot.fk(goal), robot)
+        self.pose.folded = "where {d} is"
+        self.target = pose_of(self.pose.get())
         self._key, self._found = None, {}
-        self.start, self.damping = self.near, None  # of the runs
+        self.start, self.settings = self.near, ()  # of the runs
         self.running = False  # a motion shows a run, or else leads to another start
         self.arm = self.scene.robot(robot, self.near)
-        self.scene.frame("/ck/target", self.target, letter="d", size=0.14 * self.scene.size)
+        self.goal = self.scene.frame("/ck/target", self.target, letter="d", size=0.14 * self.scene.size)
         # metres drawn for 1 m/s and for 1 rad/s; rounded, so that the text is exact
         self.scale = {part: round(scale * self.scene.size, 2) for part, scale in SCALE.items()}
 
@@ -93,6 +98,7 @@ class _Jacobians(yours.Jacobians, Explorer):
         self.joints = joint_sliders(self.robot, self.near)
         return [
             self.joints,
+            self.pose,
             Toggle("linear", "linear ellipsoid (teal)", start=True),
             Toggle("angular", "angular ellipsoid (violet)"),
             Slider("damping", 0.1, 0.01, 1.0, step=0.01, label="damping k"),
@@ -110,9 +116,13 @@ class _Jacobians(yours.Jacobians, Explorer):
         return [Plot(self.plot, CAPTION)]
 
     def update(self, values):
-        if values["damping"] != self.damping:  # another run, from the same start
-            self.damping = values["damping"]
-            self.joints.show(self.start)
+        settings = (values["damping"], *values["pose"])
+        if settings != self.settings:  # another run, from the same start
+            self.settings = settings
+            if self.panel:
+                self.joints.show(self.start)
+        self.target = pose_of(values["pose"])
+        self.goal.move(self.target)
         self.arm.theta = self.joints.get()
         if self.frame is None or not self.running:
             self.start = self.arm.theta
@@ -138,7 +148,7 @@ class _Jacobians(yours.Jacobians, Explorer):
     def found(self, values):
         """Name -> Numeric from the start, computed once for the same sliders."""
         theta, k = self.start, values["damping"]
-        key = (*theta, k)
+        key = (*theta, *self.settings)
         if key != self._key:
             common = {"max_iterations": STEPS, "tol": 1e-8, "rows": "all" if self.robot.n > 5 else "linear"}
             self._key = key
@@ -169,7 +179,8 @@ class _Jacobians(yours.Jacobians, Explorer):
             found = self.found(values)[name]
             longest = max(step.step for step in found.history)
             count = f"{found.iterations} steps" if found.converged else f"not there after {STEPS} steps"
-            parts.append(f"{title}: {count}, the longest {text.number(longest, 2)} rad")
+            unit = "rad and m" if "prismatic" in self.robot.joint_types else "rad"
+            parts.append(f"{title}: {count}, the longest {text.number(longest, 2)} {unit}")
         begun = "" if self.frame is None or not self.running else f" from the start, shown: step {self.frame}"
         return f"to {{d}}{begun}  " + "; ".join(parts)
 

@@ -5,18 +5,19 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from coursekit.kinematics import ik, path, robots
+from coursekit.kinematics import path, robots
 from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Choice, Table, Toggle
 from coursekit.view.explorers import Explorer, yours
+from coursekit.view.explorers.letter import Followed, Letter
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
 
 POINTS = (101, 201, 501, 1001, 5001)
 FRAMES = 501  # the most poses that are sent to the page
 NORMALS = 26  # arrows drawn along the curve
-ONE_BOUND = 2.0  # rad/s for every joint (RPI mini project 3, 2021, problem 3)
+ONE_BOUND = 2.0  # rad/s for every joint (RPI mini project 3, 2021, problem 3); m/s for a slide
 STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1, 1, 1)))
 CAPTION = (
     "Rate of each joint in percent of its bound, at the largest speed that the bounds allow. "
@@ -39,7 +40,9 @@ def explore_path(
     Parameters
     ----------
     robot : Robot, optional
-        An arm with an analytic inverse (`ik.analytic`); the ABB IRB 1200 without it.
+        Any arm with two joints or more; the ABB IRB 1200 without it. An arm without a closed form
+        (`ik.analytic`) follows the path numerically, from where random starts found it, as the text says; one
+        that cannot follow the sphere gets a smaller letter where its tool can go.
     points : (m, 3), optional
         Another curve on the sphere of radius 0.5 m about (0, 0, 0.5), for instance from `path.load_points`;
         the letter S without it. ValueError where the arm cannot follow the curve in any way.
@@ -57,18 +60,13 @@ class _Path(yours.Path, Explorer):
 
     def __init__(self, robot, curve, mine):
         super().__init__(robot, mine)
-        self.curve = curve
-        self.known = {}  # number of points -> points, q, points reached, points inside the limits
-        n = POINTS[0]
-        points, q, reached, inside = self._follow(n)
-        if reached.max() < n:
-            raise ValueError(
-                f"{robot.name} cannot follow this path: it reaches {reached.max()} of {n} points"
-            )
-        self.names = ik.analytic(robot, path.frames(points)[0]).branches
-        inside = np.where(reached == n, inside, -1)
+        self.letter = Letter(robot, curve)
+        self.known: dict[int, Followed] = {}
+        first, n = self._follow(POINTS[0]), POINTS[0]
+        self.names = first.names
+        inside = np.where(first.reached == n, first.inside, -1)
         best = np.flatnonzero(inside == inside.max())
-        self.branch = min(best.tolist(), key=lambda k: np.abs(q[k, 0]).sum())  # the one nearest to zero
+        self.branch = min(best.tolist(), key=lambda k: np.abs(first.q[k, 0]).sum())  # the one nearest to zero
         self.place = 0
         self.choose(n, np.full(robot.n, ONE_BOUND), self.branch, False)
         self.draw()
@@ -78,25 +76,30 @@ class _Path(yours.Path, Explorer):
         self.arm = scene.robot(robot, self.q[self.branch, 0])
         scene.frame(self.arm.link(robot.n) + "/tool", robot.M, size=0.12 * scene.size)
         scene.curve("/ck/curve", self.points)
-        some = np.linspace(0, len(self.points) - 1, NORMALS).round().astype(int)
-        outward = 0.1 * path.frames(self.points)[some, :3, 0]
-        self.switched = {
-            "sphere": scene.sphere("/ck/sphere", path.SPHERE_CENTER, path.SPHERE_RADIUS),
-            "normals": scene.normals("/ck/normals", self.points[some], outward),
-        }
+        self.switched = {}
+        if self.letter.on_sphere:
+            some = np.linspace(0, len(self.points) - 1, NORMALS).round().astype(int)
+            outward = 0.1 * path.frames(self.points)[some, :3, 0]
+            self.switched = {
+                "normals": scene.normals("/ck/normals", self.points[some], outward),
+                "sphere": scene.sphere("/ck/sphere", path.SPHERE_CENTER, path.SPHERE_RADIUS),
+            }
 
     def controls(self):
-        bounds = {"2 rad/s each": np.full(self.robot.n, ONE_BOUND)}
+        slides = "prismatic" in self.robot.joint_types
+        unit = "2 rad/s or 2 m/s each" if slides else "2 rad/s each"
+        bounds = {unit: np.full(self.robot.n, ONE_BOUND)}
         if np.isfinite(self.robot.v_max).all():
             bounds["the robot's own"] = self.robot.v_max
         ways = {name: k for k, name in enumerate(self.names) if self.reached[k] == len(self.points)}
+        counts = [n for n in POINTS if n <= self.letter.most]
+        labels = {"normals": "outward normals", "sphere": "sphere"}
         return [
             Choice("branch", ways, self.names[self.branch], "way"),
-            Choice("points", {str(n): n for n in POINTS}, label="points"),
+            Choice("points", {str(n): n for n in counts}, label="points"),
             Choice("bounds", bounds, label="rate bounds"),
             Toggle("wrapped", "differences of wrapped angles"),
-            Toggle("normals", "outward normals", start=True),
-            Toggle("sphere", "sphere", start=True),
+            *(Toggle(name, labels[name], start=True) for name in self.switched),
         ]
 
     def below(self):
@@ -118,18 +121,16 @@ class _Path(yours.Path, Explorer):
 
     def _follow(self, n):
         if n not in self.known:
-            points = path.s_curve(n) if self.curve is None else path.resample(self.curve, n)
-            q = path.follow(self.robot, path.frames(points))
-            inside = self.robot.within_limits(q).sum(axis=-1)
-            self.known[n] = points, q, path.points_reached(q), inside
+            self.known[n] = self.letter.follow(n)
         return self.known[n]
 
     def choose(self, n, bounds, branch, wrapped):
         """Take what the controls say."""
-        self.points, self.q, self.reached, self.inside = self._follow(n)
+        now = self._follow(n)
+        self.points, self.q, self.reached, self.inside = now.points, now.q, now.reached, now.inside
         self.branch, self.bounds, self.wrapped = branch, bounds, wrapped
         self.limit = path.speed_limit(self.q, self.points, bounds)
-        self.faulty = path.speed_limit(_wrapped(self.q), self.points, bounds)
+        self.faulty = path.speed_limit(self.wrapped_q(), self.points, bounds)
 
     # -- the motion in the page
 
@@ -154,7 +155,7 @@ class _Path(yours.Path, Explorer):
 
     def _use(self, limit):
         """Share of its bound that each joint uses in each step, at that limit's speed. (m - 1, n), signed."""
-        q = _wrapped(self.q) if limit is self.faulty else self.q
+        q = self.wrapped_q() if limit is self.faulty else self.q
         return path.joint_rates(q[self.branch], self.points, limit.speed[self.branch]) / self.bounds
 
     def words(self, values):
@@ -164,17 +165,26 @@ class _Path(yours.Path, Explorer):
         where = " and ".join(f"after point {i + 1}" for i in full[:2])
         inside = "inside" if self.robot.within_limits(theta) else "outside"
         speed, bound = text.number(self.limit.speed[k], 4), text.number(self.bounds[joint])
+        kinds = self.robot.joint_types
         lines = [
             self.names[k],  # the point of the path and its rates stand beside the buttons of the motion
-            f"joints {text.degrees(theta)}: {inside} the limits",
-            f"largest speed {speed} m/s: joint {joint + 1} at {bound} rad/s {where}",
+            f"joints {text.joints(kinds, theta)}: {inside} the limits",
+            f"largest speed {speed} m/s: joint {joint + 1} at {bound} {self.rate_unit(joint)} {where}",
+            *self.letter.remarks,
         ]
         return "\n".join([*lines, self._fault()] if self.wrapped else lines)
+
+    def rate_unit(self, joint):
+        return "rad/s" if self.letter.turns[joint] else "m/s"
+
+    def wrapped_q(self):
+        """Angles within half a turn. Rounded first: at theta = pi the last digit would decide the sign."""
+        return np.where(self.letter.turns, np.angle(np.exp(1j * np.round(self.q, 9))), self.q)
 
     def _fault(self):
         """What the differences of wrapped angles make of this branch."""
         k, joint, i = self.branch, self.faulty.joint[self.branch], self.faulty.index[self.branch]
-        seems, turns = (np.ptp(q[k, i : i + 2, joint]) for q in (_wrapped(self.q), self.q))
+        seems, turns = (np.ptp(q[k, i : i + 2, joint]) for q in (self.wrapped_q(), self.q))
         speed = f"from wrapped angles {text.number(self.faulty.speed[k], 4)} m/s:"
         if seems < np.pi:
             return f"{speed} no angle wraps on this way"
@@ -206,8 +216,3 @@ class _Path(yours.Path, Explorer):
             ax.axhline(bound, color="#C2307E", ls=":", lw=1.2)
         ax.set(xlabel="distance along the path [m]", ylabel="rate [% of its bound]", ylim=(-115, 115))
         ax.legend(ncols=3, fontsize=8, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0))
-
-
-def _wrapped(q):
-    """Angles within half a turn. Rounded first: at theta = pi the last digit would decide the sign."""
-    return np.angle(np.exp(1j * np.round(q, 9)))

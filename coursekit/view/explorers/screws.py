@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from coursekit.kinematics import dh, lie, robots
+from coursekit.kinematics import axes, lie, robots
 from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Choice, Slider
@@ -18,13 +18,14 @@ def explore_screws(
 ) -> Panel:
     """Open the explorer of screws: a joint axis, a point q on it, v = -w x q, and the column of S or B.
 
-    The arm stands at zero and only the chosen joint turns. The point q can be slid along its axis, and the
-    screw can be looked at from the space frame, from the tool, or from where the last two axes meet.
+    The arm stands at zero and only the chosen joint moves. The point q can be slid along its axis, and the
+    screw can be looked at from the space frame, from the tool, or from where the last two axes meet. A joint
+    that slides has no w and needs no q: its column is (0; v).
 
     Parameters
     ----------
     robot : Robot, optional
-        An arm with revolute joints; the KUKA KR6 where none is given. ValueError for a sliding joint.
+        Any arm; the KUKA KR6 where none is given.
     mine : function, list or dict of functions, optional
         What you wrote, on the arm: screw_axis, axis_of, body_screws, home_pose (of the ABB), and the screws
         that you read off a drawing, {"S": S} with S (6, n). Each axis gets a tick where it is right; the
@@ -39,10 +40,7 @@ def explore_screws(
     'yours, screw_axis: off: joints 2, 3, 4, 5, 6. Joint 2: the axes are 801.6 mm'
     >>> panel.close()
     """
-    robot = robots.kuka_kr6() if robot is None else robot
-    if "prismatic" in robot.joint_types:
-        raise ValueError(f"{robot.name} has a prismatic joint: this explorer shows revolute joints only")
-    return _Screws(robot, mine).open(height)
+    return _Screws(robots.kuka_kr6() if robot is None else robot, mine).open(height)
 
 
 class _Screws(Explorer):
@@ -52,13 +50,16 @@ class _Screws(Explorer):
         super().__init__(robot, mine)
         self.frames = _frames(robot)
         self.turn = Slider("turn", 0.0, -np.pi, np.pi, unit="deg", label="turn this joint")
+        self.unit = "deg"  # of that slider, which serves every joint in turn
         self.origins = robot.link_frames(np.zeros(robot.n))[:, :3, 3]
+        self.directions, self.points = axes.directions_of(robot.S), axes.points_on(robot.S)
         self.arm = self.scene.robot(robot, np.zeros(robot.n))
         self.arm.look(solid=True, skeleton=True)
 
     def controls(self):
+        joints = {f"joint {i + 1}": i for i in range(self.robot.n)}
         return [
-            Choice("joint", {f"joint {i + 1}": i for i in range(self.robot.n)}, start="joint 2"),
+            Choice("joint", joints, start="joint 2" if self.robot.n > 1 else "joint 1"),
             Choice("frame", self.frames, label="seen from"),
             Slider("slide", 0.0, -0.3, 0.3, unit="mm", label="q along the axis"),
             self.turn,
@@ -67,35 +68,65 @@ class _Screws(Explorer):
     def drivers(self, values):
         return [self.turn if k == values["joint"] else None for k in range(self.robot.n)]
 
+    def slides(self, i):
+        return self.robot.joint_types[i] == "prismatic"
+
+    def fit_slider(self, i):
+        """The last slider turns a hinge, in degrees, and moves a slide, in millimetres."""
+        unit = "mm" if self.slides(i) else "deg"
+        if unit != self.unit:
+            self.unit = unit
+            low, high = self.robot.q_min[i], self.robot.q_max[i]
+            ends = (low if np.isfinite(low) else -1.0, high if np.isfinite(high) else 1.0)
+            self.turn.label = "slide this joint" if unit == "mm" else "turn this joint"
+            self.turn.fit(0.0, *(ends if unit == "mm" else (-np.pi, np.pi)), unit)
+
     def update(self, values):
         i, scene = values["joint"], self.scene
+        self.fit_slider(i)
         self.S = self.robot.S[:, i]
-        w, v = self.S[:3], self.S[3:]
-        nearest = np.cross(w, v)
-        self.q = nearest + w * (w @ (self.origins[i] - nearest) + values["slide"])
-        self.arm.theta = values["turn"] * np.eye(self.robot.n)[i]
+        w, v, along = self.S[:3], self.S[3:], self.directions[i]
+        on_axis = self.origins[i] if self.slides(i) else self.points[i]
+        self.q = axes.foot(self.origins[i], on_axis, along) + along * values["slide"]
+        self.arm.theta = self.turn.get() * np.eye(self.robot.n)[i]
         letter, T = values["frame"]
         scene.screw_axis("/ck/axis", self.S, label=f"S{i + 1}", at=self.q)
         scene.point("/ck/q", self.q, "q", color="accent")
         scene.frame("/ck/seen", T, letter=letter, size=0.14 * scene.size)
-        scene.line("/ck/lever", T[:3, 3], self.q)
-        scene.arrow("/ck/v", T[:3, 3], v + np.cross(w, T[:3, 3]), color="trace", label="v")
+        # a slide's v is a direction and owes nothing to a lever
+        lever = T[:3, 3] if self.slides(i) else self.q
+        scene.line("/ck/lever", T[:3, 3], lever)
+        drawn = 0.3 * scene.size * v if self.slides(i) else v + np.cross(w, T[:3, 3])
+        scene.arrow("/ck/v", T[:3, 3], drawn, color="trace", label="v")
 
     def words(self, values):
         i, (letter, T) = values["joint"], values["frame"]
         seen = lie.adjoint(lie.inverse(T)) @ self.S
         q_seen = (lie.inverse(T) @ [*self.q, 1])[:3]
         name = "S" if letter == "s" else "B"
-        tool = self.robot.fk(self.arm.theta)[:3, 3]
-        return "\n".join(
-            [
-                f"joint {i + 1} of {self.robot.name}, seen from frame {{{letter}}}",
-                f"direction w = {text.row(seen[:3])}    point q = {text.millimetres(q_seen)}",
-                f"v = -w x q = {text.row(1000 * seen[3:], 1)} mm per rad, of the point at {{{letter}}}",
-                f"column {i + 1} of {name} = {text.row(seen)}    (w; v), v in metres",
-                f"tool at {text.millimetres(tool)} after {text.degrees(values['turn'])}",
+        tool, moved = self.robot.fk(self.arm.theta)[:3, 3], self.turn.get()
+        lines = [f"joint {i + 1} of {self.robot.name}, seen from frame {{{letter}}}"]
+        if self.slides(i):
+            lines += [
+                "a slide turns nothing: w = 0, and no point q is needed (the one drawn is only its place)",
+                f"v = {text.row(seen[3:])}: the direction in which every point goes, 1 m per metre",
+                f"column {i + 1} of {name} = {text.row(seen)}    (0; v)",
+                f"tool at {text.millimetres(tool)} after {text.millimetres(moved)}",
             ]
-        )
+            return "\n".join(lines)
+        pitch = float(self.S[:3] @ self.S[3:])
+        formula = "v = -w x q"
+        if abs(pitch) > axes.SAME:
+            formula += f" + h w, with a pitch h of {text.number(1000 * pitch, 1)} mm per rad:"
+        else:
+            formula += " ="
+        lines += [
+            f"direction w = {text.row(seen[:3])}    point q = {text.millimetres(q_seen)}",
+            f"{formula} {text.row(1000 * seen[3:], 1)} mm per rad, of the point at {{{letter}}}",
+            f"column {i + 1} of {name} = {text.row(seen)}    (w; v), v in metres",
+            f"tool at {text.millimetres(tool)} after {text.degrees(moved)}",
+        ]
+        return "\n".join(lines)
 
     # -- the axes by the student's functions
 
@@ -109,7 +140,7 @@ class _Screws(Explorer):
         off = [k for k in range(self.robot.n) if np.abs(S[:, k] - self.robot.S[:, k]).max() > ZERO]
         for k in range(self.robot.n):
             self._axis(sketch, k, S[:, k], k in off, k == i)
-        self._turn(sketch, S[:, i] * values["turn"], i)
+        self._turn(sketch, S[:, i] * self.arm.theta[i], i)
         if not off:
             return "all axes agree with the arm's, below 1e-9"
         listed = f"joint{'s' if len(off) > 1 else ''} {', '.join(str(k + 1) for k in off)}"
@@ -118,16 +149,18 @@ class _Screws(Explorer):
     def _screws(self, name):
         """The screws in the space frame, (6, n), by what the student wrote."""
         robot = self.robot
+        hinges, columns = np.any(robot.S[:3], axis=0), robot.S.copy()  # a slide has no axis to be found
         if name == "body_screws":
             return lie.adjoint(robot.M) @ self.mine.ask(name, robot.S, robot.M)
         if name == "axis_of":
-            axes = [self.mine.ask(name, S) for S in robot.S.T]
-            return np.array([[*w, *(h * w - np.cross(w, q))] for w, q, h in axes]).T
+            turning = [self.mine.ask(name, S) for S in robot.S[:, hinges].T]
+            columns[:, hinges] = np.array([[*w, *(h * w - np.cross(w, q))] for w, q, h in turning]).T
+            return columns
         if name == "screw_axis":
-            w, lever = robot.S[:3].T, np.cross(robot.S[:3].T, robot.S[3:].T)
-            points = lever + w * np.sum(w * (self.origins - lever), axis=1, keepdims=True)
-            pairs = zip(2 * w, points, strict=True)  # w may come in any length
-            return np.array([self.mine.ask(name, *pair) for pair in pairs]).T
+            lines = zip(self.origins[hinges], self.points[hinges], self.directions[hinges], strict=True)
+            pairs = [(2 * w, axes.foot(near, q, w)) for near, q, w in lines]  # w may come in any length
+            columns[:, hinges] = np.array([self.mine.ask(name, *pair) for pair in pairs]).T
+            return columns
         return self.mine.ask(name)
 
     def _axis(self, sketch, k, S, is_off, is_chosen):
@@ -203,9 +236,10 @@ def _between(S, right):
 def _frames(robot):
     """Label -> (letter, pose at zero) of the frames from which a screw can be seen."""
     frames = {"space frame: S": ("s", np.eye(4)), "flange frame: B": ("b", robot.M)}
-    if robot.n > 2:
-        _, _, on_last, on_before = dh.common_normal(robot.S[:, -1], robot.S[:, -2])
-        if np.linalg.norm(on_last - on_before) < 1e-9:
+    if robot.n > 2 and robot.joint_types[-2:] == ("revolute", "revolute"):
+        w, q = axes.directions_of(robot.S)[-2:], axes.points_on(robot.S)[-2:]
+        on_before, on_last = axes.feet(q[0], w[0], q[1], w[1])
+        if not axes.parallel(*w) and np.linalg.norm(on_last - on_before) < 1e-9:
             wrist = robot.M.copy()
             wrist[:3, 3] = on_last
             frames["wrist frame: B of the wrist"] = ("w", wrist)

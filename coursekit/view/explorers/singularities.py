@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from coursekit.kinematics import robots, singularity
+from coursekit.kinematics import axes, robots, singularity
 from coursekit.kinematics.robot import Robot
 from coursekit.view import text
 from coursekit.view.controls import Action, Choice, Toggle, joint_sliders
@@ -22,7 +22,12 @@ CAPTION = (
     "Dark: det J is small. White lines: a factor is 0 (elbow dashed, shoulder solid, wrist dotted). "
     "The cross is the arm; click to move it."
 )
+CAPTION_OF_SIGMA = (
+    "Dark: the smallest singular value is small, relative to the largest on this map. "
+    "The cross is the arm; click to move it."
+)
 NEAR = 0.05  # relative factor below which a singularity is called near: about 3 degrees
+LOST = 1e-9  # singular values below are 0
 
 
 def explore_singularities(
@@ -42,16 +47,16 @@ def explore_singularities(
     Parameters
     ----------
     robot : Robot, optional
-        An arm whose det J has the three factors (`singularity.factors`); ValueError for any other. Without it
-        the explorer offers every such arm of the catalogue.
+        Any arm. Where det J has not the three factors (`singularity.factors`), the text says why, arrows and
+        numbers are at the tool, the map shows the smallest singular value, and one button drives to where one
+        joint makes that smallest. Without it: every arm of the catalogue that has the factors.
     theta : (n,), optional
         Where the arm stands at first, radians and metres.
     mine : function, list or dict of functions, optional
         What you wrote, beside what is right: elbow_angle, shoulder_theta3 (with buttons that drive there),
         lost_motion, rank, det_from_blocks (see `coursekit.view.mine`). ValueError for any other name.
     """
-    arms = [arm for arm in robots.all().values() if _has_factors(arm)] if robot is None else [robot]
-    singularity.factors(arms[0], arms[0].home)  # refuses an arm without the three factors
+    arms = [arm for arm in robots.all().values() if nb04.has_factors(arm)] if robot is None else [robot]
     return _Singularities(arms, mine).open(height, theta)
 
 
@@ -62,27 +67,38 @@ class _Singularities(yours.Singularities, Explorer):
     def __init__(self, arms, mine):
         super().__init__(arms[0], mine)
         self.arms = {arm.name: arm for arm in arms}
+        self.split = nb04.has_factors(self.robot)  # all of them or, where it is one, this one
         self.joints = joint_sliders(self.robot, _start(self.robot))
-        self.upwards = Choice("up", JOINTS, "θ3", "map, upwards")
+        n = self.robot.n
+        some = {f"θ{k + 1}": k for k in range(1 if n > 2 else 0, n)}  # sigma does not depend on joint 1
+        self.offered = JOINTS if self.split else some
+        names = list(self.offered)
+        self.across = Choice("across", self.offered, names[0], "map, across")
+        self.upwards = Choice("up", self.offered, names[min(1, n - 1)], "map, upwards")
         self.show(self.robot)
 
     def controls(self):
+        if self.split:
+            buttons = [
+                Action(f"to_{kind}", f"to the {kind}", partial(self.drive_to, kind))
+                for kind in singularity.NAMES
+            ]
+        else:
+            buttons = [Action("to_weakest", "to the weakest pose by one joint", self.drive_to_weakest)]
         return [
             *([Choice("robot", self.arms)] if len(self.arms) > 1 else []),
             self.joints,
-            Choice("across", JOINTS, "θ2", "map, across"),
-            self.upwards,
+            *([self.across, self.upwards] if len(self.offered) > 1 else []),
             Toggle("lost", "lost motion", start=True),
-            Toggle("line", "line that meets all axes", start=True),
+            *([Toggle("line", "line that meets all axes", start=True)] if self.robot.n >= 6 else []),
             Toggle("axes", "joint axes", start=True),
-            *(
-                Action(f"to_{kind}", f"to the {kind}", partial(self.drive_to, kind))
-                for kind in singularity.NAMES
-            ),
+            *buttons,
         ]
 
     def below(self):
-        return [Plot(self.plot, CAPTION, on_click=self.click)]
+        if len(self.offered) < 2:
+            return []
+        return [Plot(self.plot, CAPTION if self.split else CAPTION_OF_SIGMA, on_click=self.click)]
 
     def show(self, robot):
         """The arm, and each joint axis as a long line that moves with its link."""
@@ -90,26 +106,30 @@ class _Singularities(yours.Singularities, Explorer):
         scene.remove("/ck/robot")
         scene.remove(ROOT)
         # the camera leaves room for the stretched arm
-        self.arm = scene.robot(robot, nearest(robot, _start(robot), "elbow"))
+        end = nearest(robot, _start(robot), "elbow") if self.split else None
+        self.arm = scene.robot(robot, _start(robot) if end is None else end)
         origins = robot.link_frames(np.zeros(robot.n))[:, :3, 3]
+        hinges = np.array([kind == "revolute" for kind in robot.joint_types])
+        places = np.where(hinges[:, None], axes.points_on(robot.S), origins)
         self.lines = []
-        for k, (S, near) in enumerate(zip(robot.S.T, origins, strict=True), 1):
-            w = S[:3]
-            ends = np.cross(w, S[3:]) + w * (w @ near) + np.outer([-0.6, 0.6], w) * scene.size
+        for k, (q, w) in enumerate(zip(places, axes.directions_of(robot.S), strict=True)):
+            ends = axes.foot(origins[k], q, w) + np.outer([-0.6, 0.6], w) * scene.size
             wire = np.linspace(*ends, 33)
-            self.lines.append(scene.curve(self.arm.link(k) + "/line", wire, "axis", 0.002 * scene.size))
+            self.lines.append(scene.curve(self.arm.link(k + 1) + "/line", wire, "axis", 0.002 * scene.size))
         for k, slider in enumerate(self.joints.used):
             slider.fit_joint(robot, k, _start(robot)[k])
 
     def update(self, values):
         if values.get("robot", self.robot) is not self.robot:
             self.show(values["robot"])
-        if values["across"] == values["up"]:  # two different joints
-            self.upwards.put("θ3" if values["across"] != JOINTS["θ3"] else "θ2")
+        names = list(self.offered)
+        if len(names) > 1 and values["across"] == values["up"]:  # two different joints
+            second = names[1] if values["across"] != self.offered[names[1]] else names[0]
+            self.upwards.put(second)
         self.arm.theta = self.joints.get()
         for line in self.lines:
             line.show(values["axes"])
-        _show_loss(self.scene, self.robot, self.arm.theta, values["lost"], values["line"])
+        _show_loss(self.scene, self.robot, self.arm.theta, values["lost"], values.get("line", False))
 
     def words(self, values):
         return words(self.robot, values["theta"])
@@ -117,19 +137,48 @@ class _Singularities(yours.Singularities, Explorer):
     def plot(self, figure, values):
         ax, i, j = figure.subplots(), values["across"], values["up"]
         nb04.draw_map(ax, self.robot, values["theta"], i, j)
-        ax.plot(*np.degrees(values["theta"][[i, j]]), "X", color="#F07A2B", mec="w", ms=11)
+        at = values["theta"] * _shown_per_si(self.robot)
+        ax.plot(*at[[i, j]], "X", color="#F07A2B", mec="w", ms=11)
 
     def click(self, x, y):
         values = self.panel.values
-        theta = values["theta"]
-        theta[[values["across"], values["up"]]] = np.radians([x, y])
-        self.panel.set(theta=np.clip(theta, *_ends(self.robot)))
+        theta, chosen = values["theta"], [values["across"], values["up"]]
+        theta[chosen] = np.array([x, y]) / _shown_per_si(self.robot)[chosen]
+        self.panel.set(theta=np.clip(theta, *nb04.ends_of(self.robot)))
 
     def drive_to(self, kind):
         start = self.panel.values["theta"]
         end = nearest(self.robot, start, kind)
         if end is not None:
             self.panel.play(np.linspace(start, end, 31))
+
+    def drive_to_weakest(self):
+        start = self.panel.values["theta"]
+        self.panel.play(np.linspace(start, weakest(self.robot, start), 31))
+
+
+def weakest(robot: Robot, theta: ArrayLike) -> np.ndarray:
+    """The configuration with the smallest sigma_min that one joint alone leads to, inside the limits.
+
+    >>> panda = robots.franka_panda()
+    >>> end = weakest(panda, panda.home)
+    >>> int(np.flatnonzero(end != panda.home)[0]) + 1, bool(singularity.sigma_min(panda, end) < 0.01)
+    (4, True)
+    """
+    theta, (low, high) = np.asarray(theta, float), nb04.ends_of(robot)
+    best = theta
+    for joint in range(robot.n):
+        a, b = low[joint], high[joint]
+        for _ in range(6):  # finer and finer about the lowest of 81
+            turned = np.tile(theta, (81, 1))
+            turned[:, joint] = np.linspace(a, b, 81)
+            sigma = singularity.sigma_min(robot, turned)
+            end = turned[sigma.argmin()]
+            step = (b - a) / 80
+            a, b = max(low[joint], end[joint] - step), min(high[joint], end[joint] + step)
+        if sigma.min() < 0.99 * singularity.sigma_min(robot, best) - 1e-9:
+            best = end
+    return best
 
 
 def nearest(robot: Robot, theta: ArrayLike, name: str) -> np.ndarray | None:
@@ -142,7 +191,7 @@ def nearest(robot: Robot, theta: ArrayLike, name: str) -> np.ndarray | None:
     0.083141
     """
     theta = np.asarray(theta, float)
-    low, high = _ends(robot)
+    low, high = nb04.ends_of(robot)
     found = []
     for joint in range(1, 5):
         turned = np.array([theta] * 3)
@@ -161,68 +210,100 @@ def nearest(robot: Robot, theta: ArrayLike, name: str) -> np.ndarray | None:
 
 def words(robot: Robot, theta: ArrayLike) -> str:
     """The numbers of the picture: determinant, factors, smallest singular value, rank, name, what is lost."""
-    split = singularity.factors(robot, theta)
-    parts = [f"{name} {text.number(split[name], 5)}{unit}" for name, unit in UNITS.items()]
-    names, rank = singularity.classify(robot, theta), singularity.rank(robot, theta)
-    verdict = " and ".join(names) + " singularity" if names else "regular"
-    if singularity.aligned(robot, theta):
-        verdict += ", axes 1 and 6 are one line"
-    relative = singularity.relative_factors(robot, theta)
-    near = [name for name in relative if abs(relative[name]) < NEAR and name not in names]
-    verdict += f"; near: {', '.join(near)}" if near else ""
+    theta, rank, most = np.asarray(theta, float), int(singularity.rank(robot, theta, LOST)), min(robot.n, 6)
+    split = nb04.has_factors(robot)
+    first, verdict = _of_the_factors(robot, theta) if split else _without_factors(robot, rank, theta)
+    if robot.n > 1 and singularity.aligned(robot, theta):
+        verdict += f", axes 1 and {robot.n} are one line"
     sigma = text.number(singularity.sigma_min(robot, theta), 5)
     moment, force, pitch = _loss(robot, theta)
-    what = "lost" if rank < 6 else "weakest"
-    loss = f"{what}: force {text.row(force, 2)}, moment {text.row(moment, 2)} at the wrist"
-    if rank == 5:
-        loss += ", a line that meets all six axes" if abs(pitch) < 1e-6 else f", pitch {abs(pitch):.3f} m"
-    elif rank < 5:
-        loss += f": one of {6 - rank} motions that are lost"
-    tool = f"tool at {text.millimetres(robot.fk(theta)[:3, 3])}"
+    what = "lost" if rank < most else "weakest"
+    place = "wrist" if split else "tool"
+    loss = f"{what}: force {text.row(force, 2)}, moment {text.row(moment, 2)} at the {place}"
+    if robot.n >= 6 and rank == 5:
+        every = "all six axes" if robot.n == 6 else f"all {robot.n} axes"
+        loss += f", a line that meets {every}" if abs(pitch) < 1e-6 else f", pitch {abs(pitch):.3f} m"
+    elif rank < most - 1:
+        loss += f": one of {most - rank} motions that are lost"
+    lines = [f"tool at {text.millimetres(robot.fk(theta)[:3, 3])}", *first]
+    lines += [f"smallest singular value {sigma}, rank {rank}: {verdict}", loss]
+    return "\n".join([*lines, *_of_few_joints(robot, theta)])
+
+
+def _of_the_factors(robot, theta):
+    """det J as a product, and the names of what is 0 or nearly so."""
+    split = singularity.factors(robot, theta)
+    parts = [f"{name} {text.number(split[name], 5)}{unit}" for name, unit in UNITS.items()]
     det = f"det J = {text.number(singularity.determinant(robot, theta), 6)} m^3 = {' x '.join(parts)}"
-    return "\n".join([tool, det, f"smallest singular value {sigma}, rank {rank}: {verdict}", loss])
+    names, relative = singularity.classify(robot, theta), singularity.relative_factors(robot, theta)
+    verdict = " and ".join(names) + " singularity" if names else "regular"
+    near = [name for name in relative if abs(relative[name]) < NEAR and name not in names]
+    return [det], verdict + (f"; near: {', '.join(near)}" if near else "")
 
 
-def _has_factors(robot):
+def _without_factors(robot, rank, theta):
+    """What can be said where det J does not split, or where there is no square J."""
+    verdict = "regular" if rank == min(robot.n, 6) else "singular"
+    if robot.n != 6:
+        return [f"J is 6 x {robot.n}: it has no determinant, its singular values tell"], verdict
     try:
-        singularity.factors(robot, robot.home)
-    except ValueError:
-        return False
-    return True
+        singularity.factors(robot, theta)
+    except ValueError as error:
+        reason = str(error).rsplit(": ", 1)[-1]
+    det = text.number(singularity.determinant(robot, theta), 6)
+    return [f"det J = {det}, not a product of wrist, elbow and shoulder: {reason}"], verdict
 
 
-def _ends(robot):
-    """Limits of the joints (n,), (n,); half a turn where there is none."""
-    return tuple(np.nan_to_num(q, posinf=np.pi, neginf=-np.pi) for q in (robot.q_min, robot.q_max))
+def _of_few_joints(robot, theta):
+    """What an arm with fewer than six joints lacks everywhere, and how its tool point alone can move."""
+    if robot.n >= 6:
+        return []
+    some = np.random.default_rng(1).uniform(*nb04.ends_of(robot), (5, robot.n))
+    best = np.linalg.matrix_rank(robot.jacobian_geometric(some)[:, 3:], tol=LOST).max()
+    sigma = np.linalg.svd(robot.jacobian_geometric(theta)[3:], compute_uv=False)[:best]
+    rank = int((sigma > LOST).sum())
+    verdict = "regular" if rank == best else "singular"
+    few = f"{robot.n} joints: {6 - robot.n} of 6 motions are lost everywhere"
+    return [f"{few}; the tool point alone: sigma {text.row(sigma, 5)}, rank {rank} of {best}, {verdict}"]
+
+
+def _shown_per_si(robot):
+    return np.where([kind == "revolute" for kind in robot.joint_types], 180 / np.pi, 1000.0)
 
 
 def _start(robot):
-    """A regular configuration near home, (6,)."""
-    return np.clip(robot.home + np.radians([0, 10, 20, 25, 45, 0]), *_ends(robot))
+    """A regular configuration near home, (n,); slides in the middle of their way."""
+    low, high = nb04.ends_of(robot)
+    turned = robot.home + np.resize(np.radians([0, 10, 20, 25, 45, 0]), robot.n)
+    hinges = np.array([kind == "revolute" for kind in robot.joint_types])
+    return np.clip(np.where(hinges, turned, (low + high) / 2), low, high)
 
 
-def _wrist(robot, theta):
-    """The origin of frame 5, (3,): where the axes of a spherical wrist meet."""
-    return robot.link_frames(theta)[4, :3, 3]
+def _reference(robot, theta):
+    """Where the loss is told and drawn, (3,): where the axes of a wrist meet (frame 5), or the tool."""
+    return robot.link_frames(theta)[4, :3, 3] if nb04.has_factors(robot) else robot.fk(theta)[:3, 3]
 
 
 def _loss(robot, theta):
-    """The lost wrench: moment about the wrist and force, together of length 1, and its pitch."""
-    lost = singularity.lost_motion(robot, theta)
-    moment = lost[:3] - np.cross(_wrist(robot, theta), lost[3:])
+    """The lost (or weakest) wrench: moment about the reference and force, together of length 1; its pitch."""
+    lost = singularity.weakest_motion(robot, theta)
+    moment = lost[:3] - np.cross(_reference(robot, theta), lost[3:])
     size = np.sqrt(moment @ moment + lost[3:] @ lost[3:])
-    return moment / size, lost[3:] / size, float(singularity.lost_wrench(robot, theta).pitch)
+    return moment / size, lost[3:] / size, float(singularity.wrench_of(lost).pitch)
 
 
 def _show_loss(scene, robot, theta, lost, line):
-    """Arrows of what is lost, at the wrist, and the line that meets all axes where there is one."""
-    wrist, (moment, force, pitch) = _wrist(robot, theta), _loss(robot, theta)
-    what = "lost" if singularity.rank(robot, theta) < 6 else "weakest"
+    """Arrows of what is lost, at the reference, and the line that meets all axes where there is one."""
+    at, (moment, force, pitch) = _reference(robot, theta), _loss(robot, theta)
+    what = "lost" if singularity.rank(robot, theta) < min(robot.n, 6) else "weakest"
     for name, vector, color in (("force", force, "ghost"), ("moment", moment, "trace")):
         long = 0.35 * scene.size * vector if lost and np.linalg.norm(vector) > 1e-6 else np.zeros(3)
-        scene.arrow(f"/ck/lost/{name}", wrist, long, color, f"{what}: {name}")
-    wrench = singularity.lost_wrench(robot, theta)
+        scene.arrow(f"/ck/lost/{name}", at, long, color, f"{what}: {name}")
     there = line and what == "lost" and abs(pitch) < 1e-6
-    middle = wrench.point + wrench.direction * (wrench.direction @ (wrist - wrench.point)) if there else wrist
-    ends = middle + np.outer([-1.1, 0.5], wrench.direction if there else np.zeros(3)) * scene.size
-    scene.line("/ck/meets_all", *ends, "ghost", "meets all six axes", 0.004 * scene.size)
+    middle, along = at, np.zeros(3)
+    if there:
+        wrench = singularity.lost_wrench(robot, theta)
+        middle, along = axes.foot(at, wrench.point, wrench.direction), wrench.direction
+    ends = middle + np.outer([-1.1, 0.5], along) * scene.size
+    label = f"meets all {'six' if robot.n == 6 else robot.n} axes"
+    scene.line("/ck/meets_all", *ends, "ghost", label, 0.004 * scene.size)

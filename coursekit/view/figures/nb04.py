@@ -26,37 +26,74 @@ CELLS = 81
 def draw_map(ax: Axes, robot: Robot, theta: ArrayLike, i: int, j: int) -> None:
     """How far det J is from 0 over joints i and j (from 0), the others held at theta; lines where it is 0.
 
-    Brightness: the root of |det| relative to what the arm could have. Every line belongs to one factor.
+    Brightness: the root of |det| relative to what the arm could have. Every line belongs to one factor. Of an
+    arm without the three factors: its smallest singular value, relative to the largest on the map, no lines.
     """
     held = np.array(theta, float)
     held[[i, j]] = 0
-    x, y, relative = _factors_over(robot, i, j, tuple(held.round(9)))
-    ends = np.degrees([x[0], x[-1], y[0], y[-1]])
-    bright = np.sqrt(np.abs(np.prod(list(relative.values()), axis=0)))
+    split = has_factors(robot)
+    x, y, values = (_factors_over if split else _sigma_over)(robot, i, j, tuple(held.round(9)))
+    per = [180 / np.pi if robot.joint_types[k] == "revolute" else 1000.0 for k in (i, j)]
+    ends = [per[0] * x[0], per[0] * x[-1], per[1] * y[0], per[1] * y[-1]]
+    bright = np.sqrt(np.abs(np.prod(list(values.values()), axis=0)))
     ax.imshow(bright, extent=tuple(ends), origin="lower", aspect="auto", cmap="viridis", vmin=0, vmax=1)
     everywhere = []
-    for name, value in relative.items():
+    for name, value in values.items() if split else ():
         if np.abs(value).max() < 1e-9:
             everywhere.append(name)
         elif value.min() < 0 < value.max():
-            ax.contour(np.degrees(x), np.degrees(y), value, [0], colors="w", linestyles=STYLES[name])
+            ax.contour(per[0] * x, per[1] * y, value, [0], colors="w", linestyles=STYLES[name])
             ax.plot([], [], "w", ls=STYLES[name], label=f"{name} = 0")
     if everywhere:
         ax.set_title(f"{' and '.join(everywhere)}: det J = 0 everywhere on this map", fontsize=9)
-    ax.set(xlim=ends[:2], ylim=ends[2:], xlabel=f"θ{i + 1} [deg]", ylabel=f"θ{j + 1} [deg]")
+    ax.set(xlim=ends[:2], ylim=ends[2:], xlabel=_axis_name(robot, i), ylabel=_axis_name(robot, j))
     if ax.get_legend_handles_labels()[0]:
         ax.legend(facecolor=INK, labelcolor="w", framealpha=0.9, fontsize=8, loc="lower left")
 
 
+def has_factors(robot: Robot) -> bool:
+    """Whether det J of this arm splits into wrist, elbow and shoulder."""
+    try:
+        singularity.factors(robot, robot.home)
+    except ValueError:
+        return False
+    return True
+
+
+def ends_of(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
+    """Limits of the joints (n,), (n,); where there is none, half a turn or 1 m either way."""
+    free = np.where([kind == "revolute" for kind in robot.joint_types], np.pi, 1.0)
+    low, high = np.isfinite(robot.q_min), np.isfinite(robot.q_max)
+    return np.where(low, robot.q_min, -free), np.where(high, robot.q_max, free)
+
+
+def _axis_name(robot, joint):
+    return f"θ{joint + 1} [{'deg' if robot.joint_types[joint] == 'revolute' else 'mm'}]"
+
+
+def _grid(robot, i, j, held, cells):
+    """Grid values of two joints inside their limits, and theta (cells, cells, n) over them."""
+    low, high = ends_of(robot)
+    x, y = (np.linspace(low[k], high[k], cells) for k in (i, j))
+    theta = np.broadcast_to(held, (cells, cells, robot.n)).copy()
+    theta[..., i], theta[..., j] = np.meshgrid(x, y)
+    return x, y, theta
+
+
 @lru_cache(maxsize=16)
 def _factors_over(robot, i, j, held):
-    """Grid values of two joints inside their limits, and the relative factors (y, x) over them."""
-    low, high = (np.nan_to_num(q, posinf=np.pi, neginf=-np.pi) for q in (robot.q_min, robot.q_max))
-    x, y = (np.linspace(low[k], high[k], CELLS) for k in (i, j))
-    theta = np.broadcast_to(held, (CELLS, CELLS, robot.n)).copy()
-    theta[..., i], theta[..., j] = np.meshgrid(x, y)
+    """Grid values of two joints, and the relative factors (y, x) over them."""
+    x, y, theta = _grid(robot, i, j, held, CELLS)
     shape = np.zeros((CELLS, CELLS))  # a factor may depend on neither joint
     return x, y, {name: f + shape for name, f in singularity.relative_factors(robot, theta).items()}
+
+
+@lru_cache(maxsize=16)
+def _sigma_over(robot, i, j, held):
+    """Grid values of two joints, and the smallest singular value (y, x), relative to the largest of them."""
+    x, y, theta = _grid(robot, i, j, held, CELLS // 2)
+    sigma = singularity.sigma_min(robot, theta)
+    return x, y, {"sigma": sigma / max(sigma.max(), 1e-12)}
 
 
 def singular_map(robot: Robot, theta: ArrayLike, i: int, j: int, marks: Mapping[str, ArrayLike]) -> None:

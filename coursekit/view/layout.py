@@ -1,0 +1,60 @@
+"""Where the parts of a panel stand: controls beside the picture, plots and tables under it."""
+
+from collections.abc import Sequence
+
+import ipywidgets
+
+from coursekit.view.controls import Action, Control, Sliders, Toggle
+from coursekit.view.viewer import Viewer
+
+
+def column(controls: Sequence[Control | Sliders], reset: Action) -> ipywidgets.Widget:
+    """The controls, one under the other; switches and buttons in rows, at the end."""
+    rows: list[ipywidgets.Widget] = []
+    switches: list[ipywidgets.Widget] = []
+    for control in controls:
+        if isinstance(control, Sliders):
+            rows += _folded(control) if control.folded else control.sliders
+        else:
+            (switches if isinstance(control, Toggle | Action) else rows).append(control)
+    for switch in (*switches, reset):
+        switch.layout.width = "auto"
+    flow = _flow("2px 14px", width="100%", align_items="stretch")
+    return ipywidgets.VBox(
+        [*rows, ipywidgets.Box([*switches, reset], layout=flow)],
+        layout=ipywidgets.Layout(flex="1 1 300px", min_width="260px", max_width="460px"),
+    )
+
+
+def beside(column: ipywidgets.Widget | None, viewer: Viewer) -> ipywidgets.Widget:
+    """The controls beside the picture, above it where there is no room."""
+    viewer.layout.flex, viewer.layout.min_width = "4 1 420px", "300px"
+    return ipywidgets.Box([column, viewer] if column else [viewer], layout=_flow("12px"))
+
+
+def under(outputs: Sequence[ipywidgets.Widget]) -> list[ipywidgets.Widget]:
+    """A row of plots and tables, where there are some."""
+    for output in outputs:
+        output.layout.width = "auto"
+    return [ipywidgets.Box(list(outputs), layout=_flow("18px"))] if outputs else []
+
+
+def close(widget: ipywidgets.Widget) -> None:
+    """Close a widget and all that stands in it, with their layouts and styles."""
+    for child in getattr(widget, "children", ()):
+        close(child)
+    for attribute in ("layout", "style"):
+        if widget.has_trait(attribute):
+            getattr(widget, attribute).close()
+    ipywidgets.Widget.close(widget)
+
+
+def _folded(sliders):
+    """Sliders under a title that unfolds them."""
+    return [ipywidgets.Accordion([ipywidgets.VBox(sliders.sliders)], titles=[sliders.folded])]
+
+
+def _flow(gap, **more):
+    return ipywidgets.Layout(
+        **{"display": "flex", "flex_flow": "row wrap", "align_items": "flex-start", "grid_gap": gap, **more}
+    )
