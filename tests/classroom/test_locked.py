@@ -106,6 +106,29 @@ print(json.dumps({k: [r.n, r.S.tolist(), r.home.tolist(), r.fk([r.home, r.home +
         assert np.abs(np.array(T) - robot.fk([robot.home, robot.home + 0.3])).max() < 1e-14
 
 
+def test_what_robots_can_do_is_what_they_do_outside(tmp_path):
+    """Given with the question; every name that a list allows is there."""
+    known = ("lie", "robot.Robot.fk", "robot.Robot.jacobian_body", "robot.Robot.jacobian_space")
+    for unit in UNITS:
+        asked = {one for one in the_course().allowed(unit) if one.startswith("robot.Robot.")}
+        assert asked <= set(known), unit
+    locked.write_files(locked.locked_files(known), tmp_path)
+    source, names = locked.methods(known)
+    assert sorted(names) == ["jacobian_body", "jacobian_space"] and locked.methods(("lie",))[1] == []
+    code = f"""
+import json, runner
+from coursekit import robots
+arms = robots.all()
+runner.teach({source!r}, {names!r})
+print(json.dumps({{k: [r.jacobian_space([r.home + 0.2, r.home]).tolist(),
+                       r.jacobian_body(r.home + 0.2).tolist()] for k, r in arms.items()}}))
+"""
+    for name, (J_s, J_b) in json.loads("".join(run(tmp_path, code))).items():
+        robot = robots.all()[name]
+        assert np.abs(np.array(J_s) - robot.jacobian_space([robot.home + 0.2, robot.home])).max() < 1e-13
+        assert np.abs(np.array(J_b) - robot.jacobian_body(robot.home + 0.2)).max() < 1e-13
+
+
 def test_what_is_not_allowed_is_cut_out():
     """Not one formula of it is left."""
     sources = locked.locked_sources(("lie.hat3",))

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..course import Course
 from ..roster import Student
-from . import gradebooks, report
+from . import class_page, gradebooks, report
 from .box import as_root
 from .decisions import Decisions
 from .journal import Journal
@@ -49,6 +49,7 @@ class Desk:
         report.write_grades(self.out / "grades.csv", self.course, self.units, class_, self.box)
         for one in class_:
             report.write_page(self.out / report.page_name(one.student), one)
+        class_page.write_class_page(self.out / "class.html", class_)
         if self.people:
             gradebooks.write_canvas(
                 self.out / "canvas.csv", class_, self.people, self.handed_in.platform("canvas")

@@ -39,6 +39,13 @@ def locked_files(allowed: tuple[str, ...]) -> dict[str, str]:
     }
 
 
+def methods(allowed: tuple[str, ...]) -> tuple[str, list[str]]:
+    """(source, names) of what a robot can do when it is handed over, beside its fk."""
+    source = (INSIDE / "methods.py").read_text("utf-8")
+    known = [node.name for node in ast.parse(source).body if isinstance(node, ast.FunctionDef)]
+    return source, [name for name in known if permitted(f"robot.Robot.{name}", allowed)]
+
+
 def write_files(files: dict[str, str], folder: Path) -> None:
     """Write {path: text} below a folder."""
     for path, text in files.items():

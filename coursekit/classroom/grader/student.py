@@ -44,8 +44,13 @@ class Student:
         self.left = max(self.left, 1)
         self.replaced = sources, names
 
-    def ask(self, exercise: Exercise, inputs: list[list]) -> list[Attempt]:
-        """What the student's function answers to each call; BoxLost, or ValueError if that is malformed."""
+    def ask(
+        self, exercise: Exercise, inputs: list[list], methods: tuple[str, list[str]] | None = None
+    ) -> list[Attempt]:
+        """What the student's function answers to each call; BoxLost, or ValueError if that is malformed.
+
+        methods : what robots can do for this question: source, and the names of the functions in it
+        """
         while self.box is None:
             self._run_notebook()
         if time.monotonic() > self.end:
@@ -55,6 +60,7 @@ class Student:
             "calls": inputs,
             "several": len(exercise.shapes) if exercise.several else 0,
             "arguments": exercise.arguments,
+            "methods": methods,
         }
         try:
             reply = self.box.ask(request, exercise.timeout)

@@ -27,7 +27,7 @@ from ..check import examples_of
 from ..course import Course, course_at, the_course
 from ..exercise import Exercise
 from ..verdict import Example, Verdict, verdict
-from . import cells, follow_on
+from . import cells, follow_on, locked
 from .box import BoxLost, Limits, bubblewrap
 from .handed_out import handed_out
 from .locked import locked_files, write_files
@@ -83,11 +83,13 @@ def grade(job: dict, libraries: _Libraries) -> dict:
     library = libraries.of(job["library"])
     student = Student(sources, library, limits, bubblewrap() if job["box"] else None, len(exercises))
     try:
-        for exercise in exercises:
+        for exercise in _order(exercises):
             row = result[exercise.name]
             examples = _examples(course, exercise, job["seed"], job["unit"], arm)
             try:
-                attempts = student.ask(exercise, [example.arguments for example in examples])
+                attempts = student.ask(
+                    exercise, [x.arguments for x in examples], robots_can(course, job["unit"], examples)
+                )
             except (BoxLost, ValueError) as error:
                 row["text"] = f"no answer: {error}"
                 continue
@@ -96,7 +98,8 @@ def grade(job: dict, libraries: _Libraries) -> dict:
             row |= {"kind": found.kind, "step": found.step}
         for exercise, earlier in follow_on.candidates(course, job["unit"], result, sources):
             examples = _examples(course, exercise, job["seed"], job["unit"], arm)
-            if follow_on.is_right(student, course, job["unit"], exercise, earlier, examples):
+            can = robots_can(course, job["unit"], examples)
+            if follow_on.is_right(student, course, job["unit"], exercise, earlier, examples, can):
                 result[exercise.name]["follow_on"] = " and ".join(earlier)
     finally:
         student.close()
@@ -107,6 +110,17 @@ def grade(job: dict, libraries: _Libraries) -> dict:
         "boxes": student.starts,
         "cpu": round(cpu, 2),
     }
+
+
+def _order(exercises: list[Exercise]) -> list[Exercise]:
+    """Exercises that are handed a robot come last: what robots can do would answer others."""
+    return sorted(exercises, key=lambda exercise: "robot" in exercise.arguments)
+
+
+def robots_can(course: Course, unit: str, examples: list[Example]) -> tuple[str, list[str]] | None:
+    """What robots can do for a question, where one is handed over."""
+    handed = any(isinstance(x, dict) and "robot" in x for e in examples for x in e.arguments)
+    return locked.methods(course.allowed(unit)) if handed else None
 
 
 @cache
