@@ -19,9 +19,9 @@ from pygments.formatters import HtmlFormatter
 
 from ..classroom.author.notebook import is_check, is_solution
 from ..view import reopened
-from . import notices, shown
+from . import notices, reference, shown
+from .frame import STATIC, framed
 
-STATIC = Path(__file__).with_name("static")
 REQUIREMENTS = Path(__file__).with_name("requirements.txt")
 
 # What MathJax needs for TeX in these pages; the rest of it (other input, other languages) stays away.
@@ -92,13 +92,14 @@ def write(course: Path, out: Path, title: str, run: str | None = None) -> list[P
     pages = [described(nbformat.read(path, as_version=4), path.stem) for path in paths]
     for page, path in zip(pages, paths, strict=True):
         body = _Body(page.name, out).of(shown.run(path, course))
-        text = _framed(page.title, body, _bar(page, pages, run), page.name)
+        text = framed(page.title, body, _bar(page, pages, run), page.name)
         (out / f"{page.name}.html").write_text(text, encoding="utf-8")
     cards = "\n".join(_card(page, run) for page in pages)
     template = (STATIC / "index.html").read_text(encoding="utf-8")
     how = "run" if run else "read"
     body = template.replace("@cards@", cards).replace("@how@", how).replace("@title@", html.escape(title))
-    (out / "index.html").write_text(_framed(title, body, "", "index"), encoding="utf-8")
+    (out / "index.html").write_text(framed(title, body, "", "index"), encoding="utf-8")
+    reference.write(out)
     notices.write(out, notices.OF_PAGES)
     _worker(out)
     return pages
@@ -209,13 +210,6 @@ def _card(page: Page, run: str | None) -> str:
 <ul>{goals}</ul>
 <p class="go"><a href="{page.name}.html">Read it</a> {_run(page, run)}</p>
 </article>"""
-
-
-def _framed(title: str, body: str, bar: str, name: str) -> str:
-    page = (STATIC / "page.html").read_text(encoding="utf-8")
-    for key, value in {"title": html.escape(title), "bar": bar, "name": name, "body": body}.items():
-        page = page.replace(f"@{key}@", value)
-    return page
 
 
 # -- what all pages share

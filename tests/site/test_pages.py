@@ -1,16 +1,18 @@
 """The pages of the site: what they hold, and what a reader sees and moves without a kernel."""
 
 import html
+import inspect
 import json
 import re
 
 import numpy as np
 import pytest
 
+import coursekit
 from coursekit import robots, site
 from coursekit.classroom.author import notebook
 from coursekit.classroom.course import Course, the_course
-from coursekit.site import notices, shown
+from coursekit.site import notices, reference, shown
 from tests.browser.test_kinematics import link
 from tests.classroom import leaks
 from tests.classroom.small import COURSE
@@ -48,6 +50,20 @@ def test_no_answer_lies_anywhere(pages):
     }
     assert len(texts) > 15
     assert leaks.found(the_course(), texts) == {}
+
+
+def test_every_public_name_has_its_place(pages):
+    for name in coursekit.__all__:
+        thing = getattr(coursekit, name)
+        if inspect.ismodule(thing):
+            text = text_of(pages / f"reference_{name}.html")
+            for one, what in reference.offered(thing):
+                assert one in text
+                begins = (inspect.getdoc(what) or "").replace("`", "").split()[:4]
+                assert " ".join(begins) in " ".join(text.split())
+    assert 'class="gp"' in (pages / "reference_lie.html").read_text("utf-8")  # examples, in colour
+    ik = (pages / "reference_ik.html").read_text("utf-8")
+    assert "search(robot, T" in ik and "&lt;function" not in ik
 
 
 def test_the_index_names_every_notebook_with_its_goals_and_minutes(pages):
