@@ -88,18 +88,22 @@ class Course:
         """The table of public examples."""
         return self.classroom / "samples" / f"{unit}.json"
 
+    def questions_path(self, unit: str) -> Path:
+        """The module of the unit's questions and goals, if it has some."""
+        return self.classroom / "questions" / f"{unit}.py"
+
     def exercises(self, unit: str) -> list[Exercise]:
         """The unit's exercises, in their order."""
-        return list(getattr(_module(self.exercises_path(unit)), "EXERCISES", ()))
+        return list(getattr(module_at(self.exercises_path(unit)), "EXERCISES", ()))
 
     def allowed(self, unit: str) -> tuple[str, ...]:
         """Names in coursekit.kinematics the student may call: "lie.hat3", "rotations", "robot.Robot.fk"."""
-        return tuple(getattr(_module(self.exercises_path(unit)), "ALLOW", ()))
+        return tuple(getattr(module_at(self.exercises_path(unit)), "ALLOW", ()))
 
     def wrong(self, unit: str) -> dict[str, dict]:
         """{exercise: {hint key: function}}; instructors only."""
         path = self.mistakes_path(unit)
-        return getattr(_module(path), "WRONG", {}) if path.exists() else {}
+        return getattr(module_at(path), "WRONG", {}) if path.exists() else {}
 
     def samples(self, unit: str) -> dict:
         """{exercise: {place, examples}}."""
@@ -152,7 +156,7 @@ def course_at(place: list[str]) -> Course:
     return read(Path(place[0]))
 
 
-def _module(path: Path) -> ModuleType:
+def module_at(path: Path) -> ModuleType:
     """A module by its path: courses other than ours (in tests, say) need not be importable packages."""
     return _loaded(path, path.stat().st_mtime_ns)
 

@@ -9,19 +9,17 @@ in one small file, which stays there: it is never sent anywhere.
 from __future__ import annotations
 
 import contextlib
-import importlib
 import json
 import numbers
 import zlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from .course import solved
+from .course import course_here, module_at, solved
 from .exercise import nearest
 from .own import own_seed
 
@@ -125,9 +123,12 @@ def goals(notebook: str) -> None:
     Parameters
     ----------
     notebook : str
-        "01" to "06".
+        "01" to "06"; in a course of one's own the name of the notebook, or what stands before its first _.
     """
-    wanted = getattr(_module(f"nb{notebook}"), "GOALS", {})
+    units = (unit for unit in _units() if unit == f"nb{notebook}" or f"{unit}_".startswith(f"{notebook}_"))
+    if (unit := next(units, None)) is None:
+        raise ValueError(f"there are no goals of a notebook {notebook!r}; there are: {', '.join(_units())}")
+    wanted = getattr(_module(unit), "GOALS", {})
     done = _done | _remembered()
     ticks = {goal: all(name in done for name in names) for goal, names in wanted.items()}
     line = " · ".join(f"{'✓' if ticked else '○'} {goal}" for goal, ticked in ticks.items())
@@ -146,7 +147,7 @@ def progress(folder: Path) -> str:
     for unit in _units():
         wanted = getattr(_module(unit), "GOALS", {})
         reached = sum(all(name in done for name in names) for names in wanted.values())
-        counts.append((unit[2:], reached, len(wanted)))
+        counts.append((unit.removeprefix("nb"), reached, len(wanted)))
     if not any(reached for _, reached, _ in counts):
         return ""
     return "goals reached: " + ", ".join(f"{unit}: {reached} of {count}" for unit, reached, count in counts)
@@ -179,17 +180,22 @@ def _remembered(folder: Path | None = None) -> set[str]:
         return set()
 
 
+def _pages() -> dict[str, Path]:
+    """{unit: the file of its questions} of the course that this notebook belongs to."""
+    course = course_here()
+    return {unit: path for unit in course.units if (path := course.questions_path(unit)).exists()}
+
+
 def _units() -> list[str]:
-    return sorted(path.stem for path in Path(__file__).with_name("questions").glob("nb*.py"))
+    return list(_pages())
 
 
 def _questions() -> list[Question]:
     return [question for unit in _units() for question in getattr(_module(unit), "QUESTIONS", ())]
 
 
-@cache
 def _module(unit: str) -> Any:
-    return importlib.import_module(f"coursekit.classroom.questions.{unit}")
+    return module_at(_pages()[unit])
 
 
 def _unlike(value: Any, right: Any) -> str:

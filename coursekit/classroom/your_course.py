@@ -5,6 +5,7 @@
       01_gripper.ipynb            solved, unless `solutions` names another folder that holds the solved one
       01_gripper_exercises.py     EXERCISES: Exercise(...) of one's own, or the name of one that ships
       01_gripper_mistakes.py      WRONG: the typical mistakes; lies beside the solved notebook
+      01_gripper_questions.py     QUESTIONS and GOALS, if it has some
       01_gripper_samples.json     written by `coursekit samples`
 
 A notebook that ships is used by its name, with its exercises; a file of the same name here replaces it.
@@ -108,6 +109,10 @@ class YourCourse(Course):
     def samples_path(self, unit: str) -> Path:
         mine = self.notebooks / f"{unit}_samples.json"
         return mine if self.is_at_home(unit) else _shipped().samples_path(unit)
+
+    def questions_path(self, unit: str) -> Path:
+        mine = self.notebooks / f"{unit}_questions.py"
+        return mine if self.is_at_home(unit) else _shipped().questions_path(unit)
 
     def exercises(self, unit: str) -> list[Exercise]:
         path = self.exercises_path(unit)

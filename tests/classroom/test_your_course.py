@@ -143,6 +143,22 @@ def test_files_go_to_students_and_nothing_else_does(folder, tmp_path):
     ]
 
 
+def test_questions_and_goals_of_ones_own(folder, tmp_path, monkeypatch, capsys):
+    (folder / f"{STEM}_questions.py").write_text(
+        "from coursekit.classroom.question import Question\n"
+        "QUESTIONS = [Question('twice', lambda rng: {'x': 4}, 'Twice {x}?', lambda x: 2 * x)]\n"
+        "GOALS = {'double': ['twice'], 'reach': ['tip']}\n"
+    )
+    release.release(tmp_path / "out", read(folder))
+    monkeypatch.chdir(tmp_path / "out" / "notebooks")
+    monkeypatch.setattr("coursekit.classroom.question._done", set())
+    asked = classroom.ask("twice")
+    asked.answer(2 * asked.numbers["x"])
+    classroom.goals("01")
+    assert "1 of 2 goals: ✓ double · ○ reach" in capsys.readouterr().out
+    assert "no goals of a notebook '02'; there are: 01_first_arm" in told(classroom.goals, "02")
+
+
 # ---- what is refused
 
 

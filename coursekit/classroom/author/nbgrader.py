@@ -61,8 +61,9 @@ def export(out: Path, course: Course | None = None, seed: int = 0) -> None:
 
 def _beside(course: YourCourse, unit: str, folder: Path) -> None:
     """What `check` reads in a course of one's own: nbgrader hands out the files of an assignment's folder."""
-    paths = [course.exercises_path(unit), course.samples_path(unit)] if course.is_at_home(unit) else []
-    for path in [*paths, *(course.notebooks / name for name in course.files)]:
+    paths = [course.exercises_path(unit), course.samples_path(unit), course.questions_path(unit)]
+    mine = [path for path in paths if course.is_at_home(unit) and path.exists()]
+    for path in [*mine, *(course.notebooks / name for name in course.files)]:
         copy = shutil.copytree if path.is_dir() else shutil.copy
         copy(path, folder / path.name)
     text = release.public_toml(course, [course.stem_of(unit)])

@@ -175,8 +175,8 @@ def _files(course: Course, beside: bool) -> list[Path]:
     found += [course.notebooks / name for name in course.files]
     if beside:
         mine = [unit for unit in course.units if course.is_at_home(unit)]
-        paths = [path for unit in mine for path in (course.exercises_path(unit), course.samples_path(unit))]
-        found += [path for path in paths if path.exists()]
+        for path_of in (course.exercises_path, course.samples_path, course.questions_path):
+            found += [path for unit in mine if (path := path_of(unit)).exists()]
     return found
 
 
