@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from . import seen
 from .attempt import Attempt
 from .exercise import Exercise, thaw
 from .verdict import Example, Verdict
@@ -32,17 +33,29 @@ def told(
     ask = f'check("{exercise.name}", {name if name.isidentifier() else exercise.name}, show={{!r}})'
     lines = [_wrapped(found.say)]
     if show is None:
-        return "\n".join([*lines, f"  More: {ask.format('more')}"])
+        lines.append(f"  More: {ask.format('more')}")
+        return "\n".join([*lines, *_in_3d(found, exercise, name, show)])
     if show in ("more", "all"):
         further = found.more if show == "all" else found.more[:1]  # no wall of words
         lines += [_wrapped(f"{text[0].upper()}{text[1:]}", "  ") for text in further]
         if place:
             lines.append(_wrapped(f"Look again at “{place}” in this notebook.", "  "))
         if show == "more":
-            lines.append(f"  One example: {ask.format('example')}")
+            return "\n".join([*lines, f"  One example: {ask.format('example')}"])
     if show in ("example", "all") and 0 <= found.example < len(examples):
         lines += _example(exercise, found.example, examples, attempts)
-    return "\n".join(lines)
+    return "\n".join([*lines, *_in_3d(found, exercise, name, show)])
+
+
+def _in_3d(found: Verdict, exercise: Exercise, name: str, show: str | None) -> list[str]:
+    """Where something is returned that can be seen: what opens it beside the right one."""
+    if found.kind not in ("named", "placed", "different") or not name.isidentifier():
+        return []
+    if show is not None and found.example >= 0:
+        pasted = seen.lines(exercise, name, found.example)
+        return ["  See it in 3D:", *(f"    {line}" for line in pasted)] if pasted else []
+    line = seen.line(exercise, name)
+    return [f"  See it in 3D: {line}"] if line else []
 
 
 def _wrapped(text: str, indent: str = "") -> str:

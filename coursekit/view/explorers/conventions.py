@@ -11,7 +11,7 @@ from coursekit.kinematics.robot import Robot
 from coursekit.view.controls import Choice, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer
 from coursekit.view.panel import Panel
-from coursekit.view.sketch import ROOT, Trouble
+from coursekit.view.sketch import ROOT, ZERO, Trouble
 
 
 def explore(
@@ -120,7 +120,8 @@ class _Conventions(Explorer):
             "fk_poe": self._by_screws,
             "screws_from_dh": self._by_rows,
         }[name]
-        return self.sketch(name).poses(self.robot, *frames(name, values["theta"]))
+        self.note = ""
+        return self.sketch(name).poses(self.robot, *frames(name, values["theta"])) + self.note
 
     def _by_screws(self, name, theta):
         """Mine, right, at zero. Link k moves by the first k screws from where its frame stands at zero."""
@@ -152,6 +153,8 @@ class _Conventions(Explorer):
         S = self.mine.ask(name, _rows(table), table.base)
         if S.shape != self.robot.S.shape:
             raise Trouble(f"it returns {S.shape[1]} screws for {self.robot.n} rows")
+        off = np.flatnonzero(np.abs(S - self.robot.S).max(axis=0) > ZERO) + 1
+        self.note = f"; your screws that are off: {', '.join(map(str, off))}" if off.size else ""
         at_zero = self.robot.link_frames(np.zeros(self.robot.n))
         moved = _product(np.eye(4), lie.exp6(S.T * theta[:, None]))
         return moved @ at_zero, self.robot.link_frames(theta), at_zero
