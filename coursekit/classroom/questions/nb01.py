@@ -33,6 +33,8 @@ def _at(a, d, theta):
     return [a * np.cos(angle), a * np.sin(angle), d]
 
 
+WRONG = ("its origin is right, its rotation is not", "only the height of its origin is off")
+
 QUESTIONS = [
     Question(
         name="read_t_ab",
@@ -159,6 +161,26 @@ QUESTIONS = [
         },
     ),
     Question(
+        name="where_is_the_fault",
+        draw=lambda rng: {
+            "i": (i := int(rng.integers(3, 6))),
+            "before": i - 1,
+            "what": WRONG[int(rng.integers(2))],
+        },
+        text="A check goes frame by frame: frames 1 to {before} are right. In frame {i}, seen from\n"
+        "frame {before}, {what}. One number of row {i} is wrong, a is not zero. Which one?\n"
+        '"a" a   "b" alpha   "c" d   "d" theta',
+        answer=lambda what, **_: "c" if "height" in what else "b",
+        slips={
+            "theta swings a around: the origin would move as well.": (
+                lambda what, **_: "x" if "height" in what else "d"
+            ),
+            "Height is measured along the old z axis, and that is d.": (
+                lambda what, **_: "a" if "height" in what else "x"
+            ),
+        },
+    ),
+    Question(
         name="rounding_or_not",
         draw=lambda rng: {"gap": str(rng.choice(["2e-15", "1e-9", "4e-7"]))},
         text="Two ways to compute the tool pose of a KR6 differ by {gap} m. What is it?\n"
@@ -175,8 +197,15 @@ QUESTIONS = [
 GOALS = {
     "Read poses": ["read_t_ab", "other_way"],
     "Make a DH table": ["dh_table", "abb_row_2", "abb_row_4", "offset_of_table"],
-    "Compute the tool by both DH conventions": ["dh_transform", "mdh_transform", "fk_dh", "where_is_frame"],
-    "Compute the tool by exponentials": ["screw_exp", "fk_poe"],
-    "Treat hinges and slides alike": ["joint_transform", "slide_row"],
-    "Further: carry screws and ranges over": ["screws_from_dh", "ranges_to_dh"],
+    "Tool by both DH conventions": [
+        "dh_transform",
+        "mdh_transform",
+        "fk_dh",
+        "where_is_frame",
+        "origin_of_row",
+    ],
+    "Tool by exponentials": ["screw_exp", "fk_poe"],
+    "Hinges and slides alike": ["joint_transform", "slide_row"],
+    "Find a fault by a check": ["where_is_the_fault", "rounding_or_not"],
+    "Further: screws and ranges of a table": ["screws_from_dh", "ranges_to_dh"],
 }

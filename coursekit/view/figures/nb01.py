@@ -3,7 +3,7 @@
 Every function shows one figure and returns None.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -52,7 +52,7 @@ def common_normals() -> None:
     """
     import matplotlib.pyplot as plt
 
-    _, axes = plt.subplots(1, 2, figsize=(8.8, 4.5), layout="constrained", sharey=True)
+    _, axes = plt.subplots(1, 2, figsize=(9.8, 4.9), layout="constrained", sharey=True)
     s, top, two, three = (0, 0), (0, 300), (140, 300), (440, 300)
     up, down, forward = (0, 1), (0, -1), (1, 0)
     at_zero = (440, 430), (740, 430), (810, 430), up, (-1, 0)
@@ -94,7 +94,7 @@ def exam_drawing() -> None:
     """The Kawasaki S030 in its drawn pose: five lengths, axes without a sense, frames 0 and 6."""
     import matplotlib.pyplot as plt
 
-    _, ax = plt.subplots(figsize=(6.6, 5.3), layout="constrained")
+    _, ax = plt.subplots(figsize=(7.4, 5.9), layout="constrained")
     corners = [(0, 0), (0, 680), (150, 680), (150, 1550), (1230, 1550), (1395, 1550)]
     side_view(ax, corners, ["h = 680", "o = 150", "u = 870", "f = 1080", "t = 165"], margin=110, room=260)
     for name, ends in (("1", [(0, -120), (0, 860)]), ("4, 6", [(-20, 1550), (1620, 1550)])):
@@ -114,7 +114,7 @@ def placements(robot: Robot, fan: ArrayLike = (0.0, 0.0, 0.32)) -> None:
     if robot.standard_dh is None or robot.modified_dh is None:
         raise ValueError(f"{robot.name} has no DH tables of both conventions")
     zero = np.zeros(robot.n)
-    axes = axes_3d(2, (8.6, 4.5))
+    axes = axes_3d(2, (9.6, 5.0))
     for ax, table, axis in zip(axes, (robot.standard_dh, robot.modified_dh), ("i + 1", "i"), strict=True):
         frames = np.concatenate([table.base[None], table.frames(zero)])
         _scene(ax, robot, zero, frames, [str(i) for i in range(robot.n + 1)], np.array(fan))
@@ -146,6 +146,22 @@ def near_parallel(tilt: ArrayLike, d: ArrayLike, change: ArrayLike, marked: floa
     ax.set(xlabel="tilt of axis 3 [rad]", ylabel="size [m], [rad]")
     ax.grid(alpha=0.3)
     ax.legend(frameon=False)
+    _show()
+
+
+def errors_along_path(errors: Mapping[str, np.ndarray], ways: int) -> None:
+    """Distances along a path that is followed in several ways. errors: name -> a number a point, way by way."""
+    import matplotlib.pyplot as plt
+
+    figure, ax = plt.subplots(figsize=(7.4, 2.8), layout="constrained")
+    for (name, values), color, style in zip(errors.items(), ("accent", "trace"), ("-", "--"), strict=False):
+        first, *others = np.reshape(values, (ways, -1))
+        for curve in others:
+            ax.plot(np.linspace(0, 1, len(curve)), curve, style, color=palette(color), lw=0.6, alpha=0.5)
+        ax.plot(np.linspace(0, 1, len(first)), first, style, color=palette(color), lw=2.2, label=name)
+    ax.set(xlabel="λ, share of the path", ylabel="tool off by", ylim=(0, None))
+    ax.grid(alpha=0.3)
+    figure.legend(frameon=False, loc="outside right upper")
     _show()
 
 
