@@ -58,7 +58,7 @@ QUESTIONS = [
     Question(
         name="abb_screw_4",
         draw=_lengths,
-        text="An arm of the shape of figure 3: L1 = {L1}, L2 = {L2}, L3 = {L3}, L4 = {L4} mm.\n"
+        text="An arm of the ABB's shape: L1 = {L1}, L2 = {L2}, L3 = {L3}, L4 = {L4} mm.\n"
         "The screw of joint 4, [omega; v], six numbers, v in mm?",
         answer=lambda L1, L2, L3, L4: [1, 0, 0, 0, L1 + L2 + L3, 0],
         slips={
@@ -77,7 +77,7 @@ QUESTIONS = [
     Question(
         name="abb_screw_5",
         draw=_lengths,
-        text="An arm of the shape of figure 3: L1 = {L1}, L2 = {L2}, L3 = {L3}, L4 = {L4} mm.\n"
+        text="An arm of the ABB's shape: L1 = {L1}, L2 = {L2}, L3 = {L3}, L4 = {L4} mm.\n"
         "The screw of joint 5, [omega; v], six numbers, v in mm?",
         answer=lambda L1, L2, L3, L4: [0, 1, 0, -L1 - L2 - L3, 0, L4],
         slips={

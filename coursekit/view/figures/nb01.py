@@ -150,7 +150,7 @@ def near_parallel(tilt: ArrayLike, d: ArrayLike, change: ArrayLike, marked: floa
 
 
 def errors_along_path(errors: Mapping[str, np.ndarray], ways: int) -> None:
-    """Distances along a path that is followed in several ways. errors: name -> a number a point, way by way."""
+    """Distances along a path that can be followed in several ways: name -> a number a point, way by way."""
     import matplotlib.pyplot as plt
 
     figure, ax = plt.subplots(figsize=(7.4, 2.8), layout="constrained")

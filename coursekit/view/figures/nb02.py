@@ -42,7 +42,7 @@ def steps(directions: Sequence[str], P_mm: ArrayLike) -> None:
             middle = np.mean([start, end], axis=0)
             ax.annotate(name, middle, beside, textcoords="offset points", fontsize=11)
     _directions(ax, directions, np.array(corners[1:-1]))
-    mark_frame(ax, "T", corners[-1], [("x", (1, 0)), ("z", (0, 1))])
+    mark_frame(ax, "T", corners[-1], [("x", (1, 0)), ("z", (0, 1))], beside=(8, -16))
     mark_frame(ax, "s", corners[0], [("x", (1, 0)), ("z", (0, 1))])
     ax.set(xlabel="x [mm]", ylabel="z [mm]", xlim=(-170, 760), ylim=(-90, 1170), aspect="equal")
     ax.grid(alpha=0.2)
