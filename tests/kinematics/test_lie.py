@@ -254,3 +254,9 @@ def test_nan_stays_in_its_own_row():
         assert np.isnan(result[1]).any()
     assert np.isnan(lie.log6(np.full((4, 4), np.nan))).all()
     assert np.isnan(lie.log3(np.full((3, 3), np.nan))).all()
+
+
+def test_an_angle_whose_square_is_nothing():
+    """1e-170 rad: its square underflows, the vector itself does not."""
+    w = np.array([0.0, 3e-170, 0.0])
+    assert np.allclose(lie.log3(lie.exp3(w)) / 3e-170, [0, 1, 0])

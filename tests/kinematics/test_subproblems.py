@@ -118,6 +118,15 @@ def test_four_where_every_turn_or_none_is_right():
     assert np.isnan(subproblems.subproblem4([0, 0, 1], [0, 0, 1], [1, 0, 2], 2.1)).all()
 
 
+def test_directions_and_angles_where_some_are_special():
+    """A pair without a direction counts as (1, 0), and half a turn is +pi, beside pairs that are ordinary."""
+    c, s = subproblems.unit(np.array([0.0, 3.0]), np.array([0.0, 4.0]))
+    assert (c.tolist(), s.tolist()) == ([1.0, 0.6], [0.0, 0.8])
+    found = subproblems.angle((np.array([-1.0, 0.0, -1.0]), np.array([-0.0, 1.0, 1e-300])))
+    assert found.tolist() == [np.pi, np.pi / 2, np.pi]
+    assert subproblems.angle((np.array([0.0]), np.array([-1.0]))).tolist() == [-np.pi / 2]
+
+
 def test_nan_in_nan_out():
     nan = [np.nan, 0, 0]
     assert np.isnan(subproblems.subproblem1([0, 0, 1], nan, [1, 0, 0]))
