@@ -35,6 +35,12 @@ def large(axis):
     return draw
 
 
+def large_and_negative(axis):
+    """As `large`, but the largest component is negative: divided by it, w comes out negative, too."""
+    k = np.roll([-0.8, 0.48, 0.36], axis)
+    return lambda rng: turn(k, rng.uniform(2.3, 2.9))
+
+
 def nearly_about(axis):
     """Nearly half a turn about nearly an axis: that component is the largest even if its size is wrong."""
 
@@ -82,3 +88,41 @@ def away_from_lock(rng, quarters=(-2, -1, 0, 1)):
     (cz, sz), (cy, sy), (cx, sx) = ((np.cos(a), np.sin(a)) for a in (yaw, pitch, roll))
     turns = [[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]], [[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]]
     return (np.linalg.multi_dot([*turns, [[1, 0, 0], [0, cx, -sx], [0, sx, cx]]]),)
+
+
+def tiny_turn(rng):
+    """By 1e-7 rad: the arccosine of its trace keeps not one digit of that."""
+    return turn(direction(rng), 1e-7)
+
+
+def between(t=None, R_0=None):
+    """Two attitudes 0.5 to 2.4 rad apart, and where to stand between them."""
+
+    def draw(rng):
+        start = attitude(rng)[0] if R_0 is None else R_0
+        end = start @ turn(direction(rng), rng.uniform(0.5, 2.4))[0]
+        place = rng.choice([rng.uniform(0.15, 0.35), rng.uniform(0.65, 0.85)])
+        return start, end, place if t is None else t
+
+    return draw
+
+
+def nothing_between(rng):
+    (R,) = attitude(rng)
+    return R, R, rng.uniform(0.2, 0.8)
+
+
+def through_a_half_turn(rng):
+    """2.8 rad one way, 2.8 the other: their quaternions with w > 0 lie far apart, the attitudes do not."""
+    k = direction(rng)
+    return turn(k, 2.8)[0], turn(k, -2.8)[0], rng.uniform(0.2, 0.4)
+
+
+def far_apart(rng):
+    (R,) = attitude(rng)
+    return R, R @ turn(direction(rng), rng.uniform(2.8, 3.0))[0], rng.uniform(0.2, 0.4)
+
+
+def between_whole(rng):
+    (R_0,), (R_1,) = quarter_turn(rng), right_angles(rng)
+    return R_0, R_1, int(rng.integers(2))

@@ -122,3 +122,47 @@ def speed_missed(args, value, right) -> str:
     if used[i, j] > 1:
         return f"at your speed a joint turns {used[i, j]:.3g} times as fast as it may: {where}"
     return f"at your speed no joint needs more than {100 * used[i, j]:.3g} % of its bound: most has {where}"
+
+
+def _turned(beta: np.ndarray) -> np.ndarray:
+    """The rotation of an angle-axis product."""
+    theta = np.linalg.norm(beta)
+    if theta == 0:
+        return np.eye(3)
+    K = np.cross(np.eye(3), beta / theta)
+    return np.eye(3) + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
+
+
+def _apart(A: np.ndarray, B: np.ndarray) -> float:
+    """The angle between two attitudes, in degrees."""
+    return 2 * np.degrees(np.arcsin(np.clip(np.linalg.norm(A - B) / np.sqrt(8), 0, 1)))
+
+
+def turn_missed(args, value, right) -> str:
+    """Turn the tool by your product: how far from R is it?"""
+    if not np.isfinite(value).all():
+        return ""
+    away = _apart(_turned(value), np.asarray(args[0], float))
+    mine, true = (np.degrees(np.linalg.norm(v)) for v in (value, right))
+    if away < 1e-3:
+        if mine > 181:
+            return f"your turn leads to R by {mine:.0f} deg, the long way round; the short way is {true:.0f}"
+        return ""
+    told = f"turned by your product, the tool is {_degrees(away)} away from R"
+    same = degrees_between(value, right)
+    if same < 0.05:
+        return f"your axis is right, your angle is {_degrees(mine)} instead of {_degrees(true)}: {told}"
+    return told
+
+
+def way_missed(args, value, right) -> str:
+    """How far beside the way, and how far along it."""
+    R_0, R_1, _ = (np.asarray(x, float) for x in args)
+    if not np.isfinite(value).all():
+        return ""
+    off = np.abs(value.T @ value - np.eye(3)).max()
+    if off > 1e-6:
+        return f"R^T R of your answer differs from the identity by {off:.2g}: it is no rotation"
+    told = f"your attitude is {_degrees(_apart(value, right))} away from the right one"
+    ends = [_degrees(_apart(A, B)) for A, B in ((R_0, value), (value, R_1), (R_0, R_1))]
+    return f"{told}: {ends[0]} from R_0 and {ends[1]} from R_1, which are {ends[2]} apart"

@@ -40,6 +40,20 @@ def from_zyx(args, angles):
     return rotation(turn(2, yaw) @ turn(1, pitch) @ turn(0, roll))
 
 
+def turn_about(args, beta):
+    """The rotation of an angle-axis product, and its axis."""
+    theta = np.linalg.norm(beta)
+    k = beta / theta if theta else np.array([0.0, 0, 1])
+    K = np.array([[0, -k[2], k[1]], [k[2], 0, -k[0]], [-k[1], k[0], 0]])
+    R = np.eye(3) + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K
+    return {**rotation(R), "lines": [(np.zeros(3), k)]}
+
+
+def attitude(args, R):
+    """An attitude."""
+    return rotation(R)
+
+
 def from_wrist(args, rows):
     """Where the first row turns the tool."""
     t4, t5, t6 = rows[0]

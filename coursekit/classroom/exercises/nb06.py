@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from coursekit.classroom.exercise import Block, Edge, Exercise, Hint
-from coursekit.classroom.exercises import _attitudes as draws
+from coursekit.classroom.exercises import _attitudes as attitudes
 from coursekit.classroom.exercises import _nb06 as residuals
+from coursekit.classroom.exercises import _paths as draws
 from coursekit.classroom.exercises import looks
 
 # What the student's functions may call from coursekit.kinematics: what earlier notebooks had them write, and
@@ -15,6 +16,7 @@ ALLOW = (
     "lie.hat3",
     "lie.vee3",
     "lie.inverse",
+    "lie.exp3",
     "lie.exp6",
     "rotations.rotx",
     "rotations.roty",
@@ -23,123 +25,20 @@ ALLOW = (
 )
 
 
-def _curve(rng, m=None):
-    """A few points on a sphere, neighbours about a quarter radius apart, and its centre."""
-    centre, radius = rng.uniform(-0.5, 0.5, 3), rng.uniform(0.3, 0.7)
-    first, towards = np.linalg.qr(rng.normal(size=(3, 2)))[0].T
-    angle = np.cumsum(rng.uniform(0.15, 0.35, m or int(rng.integers(3, 6))))
-    sway = np.outer(np.sin(3 * angle + rng.uniform(0, 6)), 0.3 * np.cross(first, towards))
-    points = np.outer(np.cos(angle), first) + np.outer(np.sin(angle), towards) + sway
-    return centre + radius * points / np.linalg.norm(points, axis=1, keepdims=True), centre
-
-
-def _about_the_origin(rng):
-    points, centre = _curve(rng, 3)
-    return points - centre, np.zeros(3)
-
-
-def _whole_points(rng):
-    """On a sphere of radius 3 about (1, 0, -1)."""
-    points = rng.permutation([[1, 2, 2], [2, 1, 2], [2, -2, 1], [-1, 2, -2]])
-    return points + [1, 0, -1], [1, 0, -1]
-
-
-def _configurations(rng):
-    """Configurations up to one and a half turns away, and limits: some narrow, some beyond half a turn."""
-    n = int(rng.integers(2, 5))
-    lower, upper = -rng.uniform(1.5, 4.5, n), rng.uniform(1.5, 4.5, n)
-    return rng.uniform(-1.5 * np.pi, 1.5 * np.pi, (24, n)), lower, upper
-
-
-def _several_turns(rng):
-    _, lower, upper = _configurations(rng)
-    return rng.uniform(-6 * np.pi, 6 * np.pi, (12, len(lower))), lower, upper
-
-
-def _one_joint(rng):
-    return rng.uniform(-1.5 * np.pi, 1.5 * np.pi, (8, 1)), [-rng.uniform(0.5, 1)], [rng.uniform(1, 4)]
-
-
-def _as_many_as_joints(rng):
-    """A square theta, whose rows and columns are easily confused."""
-    theta, lower, upper = _configurations(rng)
-    return theta[: len(lower)], lower, upper
-
-
-def _exactly_on_a_limit(rng):
-    """Numbers that are exact in binary, so that no rounding decides."""
-    theta = [[-1.5, 0.25], [2.25, 0.25], [0.5, -0.75], [0.5, 3.5], [-1.625, 0], [0, 3.625], [2.25, 3.5]]
-    return rng.permutation(theta), [-1.5, -0.75], [2.25, 3.5]
-
-
-def _both_positive(rng):
-    """Limits on one side of 0, for which an angle of the other side has to turn."""
-    side = rng.choice([-1, 1])
-    limits = np.sort(side * rng.uniform([[0.6], [3.6]], [[1.2], [5.5]], (2, 2)), axis=0)
-    return rng.uniform(-1.4 * np.pi, 1.4 * np.pi, (12, 2)), *limits
-
-
-def _exam(rng):
-    """Its theta_2, and limits of 35 to 325 degrees for joint 5 of the same arm."""
-    theta = np.radians([[-174.72, 90], [-174.72, -20], [-174.72, -90], [10, 180], [-60, 180]])
-    return theta, np.radians([-50, 35]), np.radians([195, 325])
-
-
-def _more_than_a_turn(rng):
-    lower, upper = np.radians([-350, -100]), np.radians([350, 100])
-    return rng.uniform(-1.5 * np.pi, 1.5 * np.pi, (8, 2)), lower, upper
-
-
-def _whole_angles(rng):
-    return rng.integers(-9, 10, (12, 2)), [-3, -1], [2, 4]
-
-
-def _motion(rng, m=8, n=None):
-    """A joint path that crosses half a turn, uneven steps of the tool, another bound for every joint."""
-    n = n or int(rng.integers(3, 7))
-    q = np.cumsum(rng.uniform(-0.2, 0.2, (m, n)), axis=0) + rng.uniform(-0.5, 0.5, n)
-    q[:, rng.integers(n)] = np.pi - 0.4 + np.cumsum(rng.uniform(0.08, 0.2, m))
-    points = np.cumsum(_directions(rng, m) * rng.uniform(0.01, 0.04, (m, 1)), axis=0)
-    return q, points, rng.uniform(1.5, 6.0, n)
-
-
-def _directions(rng, m):
-    return np.array([draws.direction(rng) for _ in range(m)])
-
-
-def _one_that_hardly_moves(rng):
-    q, points, v_max = _motion(rng, n=3)
-    q[:, 1] = 0.7 + 1e-9 * np.arange(len(q))
-    return q, points, v_max
-
-
-def _equal_steps(rng):
-    q, _, v_max = _motion(rng, n=3)
-    return q, np.cumsum(0.02 * _directions(rng, len(q)), axis=0), v_max
-
-
-def _moves_most_but_may(limit):
-    """The joint that turns most is not the one that sets the speed; `limit` does, turning backwards."""
-
-    def draw(rng):
-        q, points, v_max = _motion(rng, n=3)
-        most = (limit + 1) % 3
-        q[:, limit] = -np.cumsum(rng.uniform(0.05, 0.1, len(q)))
-        q[:, most] = np.cumsum(rng.uniform(0.2, 0.3, len(q)))
-        v_max[:] = 4.0
-        v_max[limit], v_max[most] = 0.5, 12.0
-        return q, points, v_max
-
-    return draw
-
-
-def _whole_motion(rng):
-    q = [[0, 1], [2, 0], [1, -2], [1, 1]]
-    return q, [[0, 0, 0], [1, 2, 2], [1, 2, 3], [1, 5, 7]], rng.permutation([2, 3])
-
-
 def _unit(f, args, q):
     return bool(abs(np.sum(q * q) - 1) < 1e-9)
+
+
+def _axis_of_a_half_turn(f, args, beta):
+    """At half a turn the axis is no quotient of two zeros; its sign is free."""
+    k = np.array([0.48, -0.6, 0.64])
+    found = np.asarray(f(2 * np.outer(k, k) - np.eye(3)), float)
+    return bool(min(np.abs(found - np.pi * k).max(), np.abs(found + np.pi * k).max()) < 1e-6)
+
+
+def _there_and_back(f, args, R):
+    R_0, R_1, t = args
+    return bool(np.allclose(f(R_1, R_0, 1 - t), R, atol=1e-6))
 
 
 def _half_as_fast(f, args, speed):
@@ -157,7 +56,7 @@ EXERCISES = [
         "tool_frames(points, centre)",
         look=looks.poses,
         points=3,
-        draw=_curve,
+        draw=draws.curve,
         shape=(None, 4, 4),
         unit="m",
         compare="rotation",
@@ -171,9 +70,9 @@ EXERCISES = [
             Block("the last row", np.s_[:, 3]),
         ),
         edges=(
-            Edge("for two points", lambda rng: _curve(rng, 2)),
-            Edge("for a sphere about the origin", _about_the_origin),
-            Edge("for whole numbers", _whole_points),
+            Edge("for two points", lambda rng: draws.curve(rng, 2)),
+            Edge("for a sphere about the origin", draws.about_the_origin),
+            Edge("for whole numbers", draws.whole_points),
         ),
         residual=residuals.frame_missed,
         hints=(
@@ -198,7 +97,7 @@ EXERCISES = [
         "quaternion(R)",
         look=looks.from_quaternion,
         points=3,
-        draw=draws.attitude,
+        draw=attitudes.attitude,
         shape=(4,),
         compare="up_to_sign",
         samples=3,
@@ -207,21 +106,21 @@ EXERCISES = [
         usual="for ordinary angles",
         edges=(
             Edge("for no turn at all", lambda rng: (np.eye(3, dtype=int),)),
-            Edge("for a quarter turn", draws.quarter_turn),
-            Edge("where w, x, y and z are equal", draws.right_angles),
-            Edge("for a small turn", draws.small_turn),
-            Edge("where x is the largest", draws.large(0)),
-            Edge("where y is the largest", draws.large(1)),
-            Edge("where z is the largest", draws.large(2)),
-            Edge("where x is by far the largest", draws.nearly_about(0)),
-            Edge("where y is by far the largest", draws.nearly_about(1)),
-            Edge("where z is by far the largest", draws.nearly_about(2)),
-            Edge("for a half turn about x", draws.half_turn_about(0)),
-            Edge("for a half turn about y", draws.half_turn_about(1)),
-            Edge("for a half turn about z", draws.half_turn_about(2)),
-            Edge("for a half turn about any line", draws.half_turn),
-            Edge("for a half turn about a line square to an axis", draws.half_turn_in_a_plane),
-            Edge("for nearly half a turn", draws.nearly_half_a_turn),
+            Edge("for a quarter turn", attitudes.quarter_turn),
+            Edge("where w, x, y and z are equal", attitudes.right_angles),
+            Edge("for a small turn", attitudes.small_turn),
+            Edge("where x is the largest", attitudes.large(0)),
+            Edge("where y is the largest", attitudes.large(1)),
+            Edge("where z is the largest", attitudes.large(2)),
+            Edge("where x is by far the largest", attitudes.nearly_about(0)),
+            Edge("where y is by far the largest", attitudes.nearly_about(1)),
+            Edge("where z is by far the largest", attitudes.nearly_about(2)),
+            Edge("for a half turn about x", attitudes.half_turn_about(0)),
+            Edge("for a half turn about y", attitudes.half_turn_about(1)),
+            Edge("for a half turn about z", attitudes.half_turn_about(2)),
+            Edge("for a half turn about any line", attitudes.half_turn),
+            Edge("for a half turn about a line square to an axis", attitudes.half_turn_in_a_plane),
+            Edge("for nearly half a turn", attitudes.nearly_half_a_turn),
         ),
         residual=residuals.attitude_missed,
         hints=(
@@ -252,7 +151,7 @@ EXERCISES = [
         "zyx(R)",
         look=looks.from_zyx,
         points=2,
-        draw=draws.away_from_lock,
+        draw=attitudes.away_from_lock,
         shape=(3,),
         compare="angle",
         unit="rad",
@@ -260,13 +159,18 @@ EXERCISES = [
         usual="for ordinary angles",
         blocks=(Block("the yaw", 0), Block("the pitch", 1), Block("the roll", 2)),
         edges=(
-            Edge("where yaw and roll lie between -90 and 0 deg", lambda rng: draws.away_from_lock(rng, [-1])),
-            Edge("where R[0, 0] and R[2, 2] are negative", lambda rng: draws.away_from_lock(rng, (-2, 1))),
+            Edge(
+                "where yaw and roll lie between -90 and 0 deg",
+                lambda rng: attitudes.away_from_lock(rng, [-1]),
+            ),
+            Edge(
+                "where R[0, 0] and R[2, 2] are negative", lambda rng: attitudes.away_from_lock(rng, (-2, 1))
+            ),
             Edge("for no turn at all", lambda rng: (np.eye(3, dtype=int),)),
-            Edge("for a quarter turn about z", draws.quarter_turn),
-            Edge("for a half turn about an axis", draws.half_turn_about(0)),
-            Edge("for a half turn about an axis", draws.half_turn_about(1)),
-            Edge("for a half turn about an axis", draws.half_turn_about(2)),
+            Edge("for a quarter turn about z", attitudes.quarter_turn),
+            Edge("for a half turn about an axis", attitudes.half_turn_about(0)),
+            Edge("for a half turn about an axis", attitudes.half_turn_about(1)),
+            Edge("for a half turn about an axis", attitudes.half_turn_about(2)),
         ),
         residual=residuals.zyx_missed,
         hints=(
@@ -292,19 +196,19 @@ EXERCISES = [
     Exercise(
         "inside(theta, lower, upper)",
         points=2,
-        draw=_configurations,
+        draw=draws.configurations,
         shape=(None,),
         samples=3,
         usual="for ordinary limits",
         edges=(
-            Edge("for the limits of the exam", _exam),
-            Edge("where an angle is exactly on a limit", _exactly_on_a_limit),
-            Edge("several turns away", _several_turns),
-            Edge("where 0 is outside the limits", _both_positive),
-            Edge("where the limits are more than a turn apart", _more_than_a_turn),
-            Edge("for one joint", _one_joint),
-            Edge("for as many configurations as joints", _as_many_as_joints),
-            Edge("for whole numbers", _whole_angles),
+            Edge("for the limits of the exam", draws.exam),
+            Edge("where an angle is exactly on a limit", draws.exactly_on_a_limit),
+            Edge("several turns away", draws.several_turns),
+            Edge("where 0 is outside the limits", draws.both_positive),
+            Edge("where the limits are more than a turn apart", draws.more_than_a_turn),
+            Edge("for one joint", draws.one_joint),
+            Edge("for as many configurations as joints", draws.as_many_as_joints),
+            Edge("for whole numbers", draws.whole_angles),
         ),
         residual=residuals.configuration_missed,
         hints=(
@@ -325,19 +229,19 @@ EXERCISES = [
     Exercise(
         "largest_speed(q, points, v_max)",
         points=3,
-        draw=_motion,
+        draw=draws.motion,
         shape=(),
         unit="m/s",
         samples=3,
         usual="for an ordinary motion",
         edges=(
-            Edge("for equal steps", _equal_steps),
-            Edge("for a single step", lambda rng: _motion(rng, 2)),
-            Edge("for one joint", lambda rng: _motion(rng, 5, 1)),
-            Edge("where a joint hardly moves", _one_that_hardly_moves),
-            Edge("where joint 1 sets the speed", _moves_most_but_may(0)),
-            Edge("where the last joint sets the speed", _moves_most_but_may(2)),
-            Edge("for whole numbers", _whole_motion),
+            Edge("for equal steps", draws.equal_steps),
+            Edge("for a single step", lambda rng: draws.motion(rng, 2)),
+            Edge("for one joint", lambda rng: draws.motion(rng, 5, 1)),
+            Edge("where a joint hardly moves", draws.one_that_hardly_moves),
+            Edge("where joint 1 sets the speed", draws.moves_most_but_may(0)),
+            Edge("where the last joint sets the speed", draws.moves_most_but_may(2)),
+            Edge("for whole numbers", draws.whole_motion),
         ),
         residual=residuals.speed_missed,
         hints=(
@@ -367,5 +271,73 @@ EXERCISES = [
             ("with half the bounds the tool may go half as fast", _half_as_fast),
             ("a joint that begins a whole turn further on is no slower", _turned_once),
         ),
+    ),
+    Exercise(
+        "angle_axis(R)",
+        look=looks.turn_about,
+        points=2,
+        draw=attitudes.attitude,
+        shape=(3,),
+        unit="rad",
+        samples=3,
+        usual="for ordinary angles",
+        edges=(
+            Edge("for no turn at all", lambda rng: (np.eye(3, dtype=int),)),
+            Edge("for a tiny turn", attitudes.tiny_turn, tol=1e-11),
+            Edge("for a quarter turn about z", attitudes.quarter_turn),
+            Edge("for a third of a turn", attitudes.right_angles),
+            Edge("where x is the largest, and negative", attitudes.large_and_negative(0)),
+            Edge("where y is the largest, and negative", attitudes.large_and_negative(1)),
+            Edge("where z is the largest, and negative", attitudes.large_and_negative(2)),
+            Edge("for nearly half a turn", attitudes.nearly_half_a_turn),
+        ),
+        residual=residuals.turn_missed,
+        hints=(
+            Hint(
+                "textbook",
+                "right away from half a turn: there sin(theta) is nearly 0, and the arccosine flat. Take both"
+                " from the quaternion",
+            ),
+            Hint("axis_alone", "this is k, of length 1; the product is k theta"),
+            Hint("half_angle", "the quaternion holds half the angle: theta = 2 atan2(|(x, y, z)|, w)"),
+            Hint(
+                "turned_back", "this is the inverse rotation: the differences are taken the other way round"
+            ),
+            Hint("degrees", "the answer is in radians: yours looks like degrees"),
+            Hint("not_divided", "k is a unit vector: divide (x, y, z) by its length"),
+        ),
+        laws=(("a half turn has an axis, too, either way round", _axis_of_a_half_turn),),
+    ),
+    Exercise(
+        "slerp(R_0, R_1, t)",
+        look=looks.attitude,
+        points=2,
+        draw=attitudes.between(),
+        shape=(3, 3),
+        compare="rotation",
+        samples=3,
+        usual="for ordinary attitudes",
+        edges=(
+            Edge("where t is 0", attitudes.between(0.0)),
+            Edge("where t is 1", attitudes.between(1.0)),
+            Edge("half way", attitudes.between(0.5)),
+            Edge("where R_0 is the identity", attitudes.between(R_0=np.eye(3))),
+            Edge("where R_1 is R_0", attitudes.nothing_between),
+            Edge("where the short way leads through half a turn", attitudes.through_a_half_turn),
+            Edge("for a large turn between them", attitudes.far_apart),
+            Edge("for whole numbers", attitudes.between_whole),
+        ),
+        residual=residuals.way_missed,
+        hints=(
+            Hint("entries", "entries on a straight line make no rotation: interpolate the turn between them"),
+            Hint("angles", "ZYX angles one by one: the tool swerves; take the one turn from R_0 to R_1"),
+            Hint("chord", "a straight line between quaternions is right in the middle, uneven elsewhere"),
+            Hint("wrong_side", "the turn R_0^T R_1 is seen from the tool: it stands behind R_0"),
+            Hint("from_identity", "your way begins at the identity, not at R_0"),
+            Hint("backwards", "at t = 0 it has to be R_0, at t = 1 R_1"),
+            Hint("vectors", "products k theta do not add: take the product of the turn between, R_0^T R_1"),
+            Hint("long_way", "that is the long way round: q and -q are one attitude, take the nearer"),
+        ),
+        laws=(("the way back is the same way", _there_and_back),),
     ),
 ]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import io
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
@@ -13,11 +15,27 @@ if TYPE_CHECKING:
     from mpl_toolkits.mplot3d import Axes3D
 
 INK = "#2B3038"  # links, notes and thin lines
+SHADES = 64  # colors of a stored figure
 
 
 def palette(name: str) -> str:
     """A colour of the house as matplotlib writes it, so that a figure looks like its explorer."""
     return f"#{PALETTE[name]:06X}"
+
+
+def show() -> None:
+    """Show the figure that was drawn last, in few colors: a third of the bytes that `plt.show()` stores."""
+    import matplotlib.pyplot as plt
+    from IPython.display import display
+    from PIL import Image
+
+    figure, drawn, small = plt.gcf(), io.BytesIO(), io.BytesIO()
+    figure.savefig(drawn, format="png", dpi=100)
+    image = Image.open(drawn).convert("RGB")
+    image.quantize(SHADES, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).save(small, "PNG")
+    said = f"<Figure size {image.width}x{image.height} with {len(figure.axes)} Axes>"
+    plt.close(figure)
+    display({"image/png": base64.b64encode(small.getvalue()).decode(), "text/plain": said}, raw=True)
 
 
 def axes_3d(count: int, size: tuple[float, float]) -> np.ndarray:

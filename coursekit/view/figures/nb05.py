@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import jacobians
 from coursekit.kinematics.robot import Robot
-from coursekit.view.figures import palette
+from coursekit.view.figures import palette, show
 
 PARTS = {"linear": ("trace", "m/s"), "angular": ("accent", "rad/s")}
 SHORTEST = 1e-11  # rad
@@ -29,7 +29,7 @@ def differences(step: ArrayLike, central: ArrayLike, forward: ArrayLike) -> None
     ax.set(xlabel="step [rad]", ylabel="largest error of an entry of J\n(omega: 1; v: m)")
     ax.grid(alpha=0.3)
     ax.legend(frameon=False)
-    plt.show()
+    show()
 
 
 def ellipsoids(robot: Robot, **thetas: ArrayLike) -> None:
@@ -47,7 +47,7 @@ def ellipsoids(robot: Robot, **thetas: ArrayLike) -> None:
             _ellipsoid(ax, e, palette(color))
             _box(ax, room, unit)
             ax.set_title(f"{part}, {name}", fontsize=11, y=0.94)
-    plt.show()
+    show()
 
 
 def steps(runs: Mapping[str, ArrayLike]) -> None:
@@ -63,7 +63,7 @@ def steps(runs: Mapping[str, ArrayLike]) -> None:
     ax.set(xlabel="step", ylabel="length of the step [rad]", ylim=(SHORTEST, 30))
     ax.grid(alpha=0.3)
     ax.legend(frameon=False)
-    plt.show()
+    show()
 
 
 def damping(dampings: Iterable[float], gain: float = 1.0) -> None:
@@ -80,7 +80,7 @@ def damping(dampings: Iterable[float], gain: float = 1.0) -> None:
     ax.set(xlabel="singular value σ", ylabel="step for an error of 1", ylim=(1e-2, 1e3))
     ax.grid(alpha=0.3)
     ax.legend(frameon=False, fontsize=9)
-    plt.show()
+    show()
 
 
 def planar_velocity(theta: ArrayLike, lengths: ArrayLike, v: ArrayLike) -> None:
@@ -103,7 +103,7 @@ def planar_velocity(theta: ArrayLike, lengths: ArrayLike, v: ArrayLike) -> None:
     ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
     ax.margins(0.2)
     ax.grid(alpha=0.3)
-    plt.show()
+    show()
 
 
 # -- parts of the pictures -------------------------------------------------------------------------------

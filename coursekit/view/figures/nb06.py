@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from coursekit.kinematics import path
-from coursekit.view.figures import palette
+from coursekit.view.figures import palette, show
 
 STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1, 1, 1)))
 
@@ -27,10 +27,7 @@ def on_sphere(
     figure = plt.figure(figsize=(5.0, 4.1), layout="constrained")
     ax = figure.add_subplot(projection="3d")
     ax.set_proj_type("ortho")
-    u, v = np.linspace(-np.pi / 2, np.pi / 2, 13), np.linspace(0, np.pi, 9)
-    half = [np.outer(np.sin(v), np.cos(u)), np.outer(np.sin(v), np.sin(u)), np.outer(np.cos(v), np.ones(13))]
-    half = [c + radius * h for c, h in zip(center, half, strict=True)]
-    ax.plot_wireframe(*half, color="#D5DAE1", lw=0.6)
+    _globe(ax, center, radius, np.pi)
     ax.plot(*points.T, color=palette("bone"), lw=1.5)
     for pose in T[::every]:
         for k, letter in enumerate("xyz"):
@@ -43,7 +40,7 @@ def on_sphere(
     ax.set(yticks=[-0.5, 0, 0.5], zticks=[0, 0.5, 1])
     ax.set_aspect("equal")
     ax.view_init(14, -32)
-    plt.show()
+    show()
 
 
 def attitudes(s: ArrayLike, quaternions: np.ndarray, zyx: np.ndarray, rotation_vectors: np.ndarray) -> None:
@@ -60,7 +57,7 @@ def attitudes(s: ArrayLike, quaternions: np.ndarray, zyx: np.ndarray, rotation_v
         _lines(ax, s, values, names)
         ax.set(title=title, xlabel="distance along the path [m]", ylabel=unit)
         ax.legend(frameon=False, fontsize=8)
-    plt.show()
+    show()
 
 
 def wrapped_and_continuous(s: np.ndarray, wrapped: np.ndarray, continuous: np.ndarray, joint: int) -> None:
@@ -78,7 +75,7 @@ def wrapped_and_continuous(s: np.ndarray, wrapped: np.ndarray, continuous: np.nd
         axes[0].plot(s[i : i + 2], wrapped[i : i + 2], color=palette("accent"), lw=2.2)
     axes[0].set(ylabel=f"joint {joint} [rad]")
     axes[0].text(0.02, np.pi + 0.1, "π", transform=axes[0].get_yaxis_transform())
-    plt.show()
+    show()
 
 
 def rates(points: ArrayLike, rate: Iterable[np.ndarray], bounds: Mapping[str, ArrayLike]) -> None:
@@ -99,10 +96,131 @@ def rates(points: ArrayLike, rate: Iterable[np.ndarray], bounds: Mapping[str, Ar
         ax.plot(middle[worst[0]], turned[*worst], "o", ms=8, mfc="none", color=palette("accent"))
         ax.set(title=title, xlabel="distance along the path [m]", ylabel="joint rate [rad/s]")
     axes[0, 0].legend(frameon=False, fontsize=7, ncols=2, loc="lower left", bbox_to_anchor=(0, 0.06))
-    plt.show()
+    show()
+
+
+def projection(letter: np.ndarray, points: np.ndarray, which: int) -> None:
+    """The sphere, the plane that touches it, and the line from the pole through one point of the letter.
+
+    letter (m, 2): Y, Z of the plane; points (m, 3) on the sphere; which: the one whose line is drawn.
+    """
+    import matplotlib.pyplot as plt
+
+    figure = plt.figure(figsize=(5.2, 4.2), layout="constrained")
+    ax = figure.add_subplot(projection="3d")
+    ax.set_proj_type("ortho")
+    _globe(ax, path.SPHERE_CENTER, path.SPHERE_RADIUS, 2 * np.pi)
+    pole = np.array(path.SPHERE_CENTER) - [path.SPHERE_RADIUS, 0, 0]
+    flat = np.column_stack([np.full(len(letter), path.SPHERE_RADIUS), letter[:, 0], 0.5 + letter[:, 1]])
+    ax.plot(*flat.T, color=palette("trace"), lw=1.6, label="in the plane")
+    ax.plot(*points.T, color=palette("bone"), lw=1.8, label="on the sphere")
+    ax.plot(*np.array([pole, flat[which]]).T, color=palette("accent"), lw=1.2, marker="o", ms=4)
+    ax.plot(*points[which], "o", color=palette("accent"), ms=4)
+    ax.text(*(pole - [0.09, 0, 0]), "pole", color=palette("accent"), ha="center")
+    ax.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]", xticks=[-0.5, 0, 0.5])
+    ax.set(yticks=[-0.5, 0, 0.5], zticks=[0, 0.5, 1])
+    ax.set_aspect("equal")
+    ax.legend(frameon=False, fontsize=9)
+    ax.view_init(16, -58)
+    show()
+
+
+def angle_axis_errors(gap: ArrayLike, angle: np.ndarray, product: np.ndarray) -> None:
+    """Error of theta near 0 and of k theta near pi, over the distance from there.
+
+    angle, product (2, m): from the trace and 2 sin theta, and from the quaternion; drawn up to 10 rad.
+    """
+    import matplotlib.pyplot as plt
+
+    _, axes = plt.subplots(1, 2, figsize=(7.2, 2.8), layout="constrained", sharey=True)
+    for ax, both in zip(axes, (angle, product), strict=True):
+        for error, line, color, name in zip(
+            both, ("o-", "s--"), ("accent", "trace"), ("textbook", "from the quaternion"), strict=True
+        ):
+            ax.loglog(gap, np.clip(error, 1e-17, 10), line, ms=3, color=palette(color), label=name)
+        ax.set(ylim=(3e-18, 30))
+        ax.grid(alpha=0.3)
+    axes[0].set(title="near no turn", xlabel="θ [rad]", ylabel="error of θ [rad]")
+    axes[1].set(title="near half a turn", xlabel="π - θ [rad]", ylabel="error of β [rad]")
+    axes[0].legend(frameon=False, fontsize=8)
+    show()
+
+
+def interpolations(t: ArrayLike, ways: Mapping[str, np.ndarray]) -> None:
+    """Left: where the tool's x axis points along each way, on the unit sphere. Right: how fast it turns.
+
+    ways: name -> attitudes (m, 3, 3) at the places t (m,).
+    """
+    import matplotlib.pyplot as plt
+
+    figure = plt.figure(figsize=(7.6, 3.3), layout="constrained")
+    ax, right = figure.add_subplot(1, 2, 1, projection="3d"), figure.add_subplot(1, 2, 2)
+    ax.set_proj_type("ortho")
+    _globe(ax, (0, 0, 0), 1.0, 2 * np.pi)
+    for (name, R), color, line in zip(ways.items(), ("trace", "accent", "axis"), STYLES, strict=False):
+        ax.plot(*R[:, :, 0].T, ls=line, color=palette(color), lw=2)
+        ax.plot(*R[[0, -1], :, 0].T, "o", color=palette("bone"), ms=4)
+        turned = 2 * np.arcsin(np.clip(np.linalg.norm(np.diff(R, axis=0), axis=(1, 2)) / np.sqrt(8), 0, 1))
+        middle = (np.asarray(t)[1:] + np.asarray(t)[:-1]) / 2
+        right.plot(middle, turned / np.diff(t), ls=line, color=palette(color), lw=1.8, label=name)
+    ax.set(xlabel="x", ylabel="y", zlabel="z", xticks=[-1, 0, 1], yticks=[-1, 0, 1], zticks=[-1, 0, 1])
+    ax.set_aspect("equal")
+    ax.view_init(34, -20)
+    right.set(xlabel="t", ylabel="turning, rad per unit of t", ylim=(0, None))
+    right.grid(alpha=0.25)
+    right.legend(frameon=False, fontsize=9)
+    show()
+
+
+def errors(s: ArrayLike, curves: Mapping[str, ArrayLike]) -> None:
+    """Distance from the tool to its point of the path, in metres, for several forward kinematics."""
+    import matplotlib.pyplot as plt
+
+    _, ax = plt.subplots(figsize=(6.4, 3.0), layout="constrained")
+    for (name, error), line, color in zip(
+        curves.items(), STYLES, ("bone", "trace", "axis", "accent", "x"), strict=False
+    ):
+        ax.semilogy(s, np.maximum(error, 1e-18), ls=line, lw=1.5, color=palette(color), label=name)
+    ax.set(xlabel="distance along the path λ [m]", ylabel="error of the tool [m]", ylim=(1e-18, 10))
+    ax.grid(alpha=0.25)
+    ax.legend(frameon=False, fontsize=8, ncols=2, loc="center", bbox_to_anchor=(0.5, 0.62))
+    show()
+
+
+def constancy(points: np.ndarray, speeds: Mapping[str, ArrayLike], third: np.ndarray) -> None:
+    """Steps of the path, its speed, and joint 3 of every branch, over the distance along it.
+
+    speeds: name -> (m - 1,) tool speed in each step, m/s; third (k, m): joint 3 of k branches, rad.
+    """
+    import matplotlib.pyplot as plt
+
+    _, axes = plt.subplots(1, 3, figsize=(9.0, 2.8), layout="constrained")
+    step = path.steps(points)
+    s = np.append(0.0, np.cumsum(step))
+    axes[0].plot(s[:-1] + step / 2, 1e9 * (step - step.mean()), color=palette("trace"), lw=1.4)
+    axes[0].set(title="step minus mean step", ylabel="difference [nm]")
+    for (name, speed), line, color in zip(speeds.items(), STYLES, ("trace", "accent"), strict=False):
+        axes[1].semilogy(s[:-1] + step / 2, speed, ls=line, lw=1.8, color=palette(color), label=name)
+    axes[1].set(title="tool speed", ylabel="speed [m/s]", ylim=(1e-3, 2))
+    axes[1].legend(frameon=False, fontsize=8)
+    for k, q in enumerate(third):
+        axes[2].plot(s, q - q[0], ls=STYLES[k % 6], lw=1.2, color=palette("bone" if k % 2 else "accent"))
+    axes[2].set(title="joint 3, from where it begins", ylabel="angle [rad]")
+    for ax in axes:
+        ax.set(xlabel="distance along the path λ [m]")
+        ax.grid(alpha=0.25)
+    show()
 
 
 # -- parts of the pictures -------------------------------------------------------------------------------
+
+
+def _globe(ax, center, radius, width):
+    """Meridians and parallels of a sphere, over an angle of `width` about the x direction."""
+    u, v = np.linspace(-width / 2, width / 2, 13), np.linspace(0, np.pi, 9)
+    shape = [np.outer(np.sin(v), np.cos(u)), np.outer(np.sin(v), np.sin(u)), np.outer(np.cos(v), np.ones(13))]
+    shape = [c + radius * h for c, h in zip(center, shape, strict=True)]
+    ax.plot_wireframe(*shape, color="#D5DAE1", lw=0.6)
 
 
 def _lines(ax, s, values, names):
