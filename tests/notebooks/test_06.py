@@ -82,9 +82,44 @@ def test_the_sources_first_pose():
 
 
 def test_the_printed_q2_is_wrong_and_the_repaired_one_right():
-    wrong, repaired, x = (float(v) for v in re.findall(r"-?\d\.\d{4}", printed("mistake-quaternion")))
-    assert repaired == -x == pytest.approx(-GOLDEN["quat_wxyz"][0][1], abs=5e-5)
-    assert abs(wrong - repaired) > 0.05
+    R = rotations.from_quaternion(GOLDEN["quat_wxyz"][0])
+    (a, d, e), (f, b, g), (h, i, c) = R
+    mended = np.sqrt(((i - g) ** 2 + (d + f) ** 2 + (h + e) ** 2) / (3 - a + b + c)) / 2
+    printed_one = np.sqrt(((i - g) ** 2 + (d + f) ** 2 + (g + i) ** 2) / (3 + a + b + c)) / 2
+    wanted = abs(GOLDEN["quat_wxyz"][0][1])
+    assert mended == pytest.approx(wanted, abs=1e-9)
+    assert abs(printed_one - wanted) > 0.05
+
+
+def test_angle_and_axis_of_the_golden_attitudes(solved):
+    for q, beta in zip(GOLDEN["quat_wxyz"], GOLDEN["rotvec"], strict=True):
+        np.testing.assert_allclose(solved.angle_axis(rotations.from_quaternion(q)), beta, rtol=0, atol=1e-9)
+    assert printed("figure-weakness").count("loses digits: yes; quaternion off below 1e-14") == 2
+
+
+def test_slerp_against_quaternions(solved):
+    """Along the S, from every tenth attitude to the next: on the arc of the golden quaternions."""
+    for a, b in zip(GOLDEN["quat_wxyz"][::10], GOLDEN["quat_wxyz"][10::10], strict=False):
+        a, b = np.array(a), np.array(b) * np.sign(np.dot(a, b))
+        angle = np.arccos(a @ b)
+        for t in (0.0, 0.3, 0.5, 1.0):
+            arc = (np.sin((1 - t) * angle) * a + np.sin(t * angle) * b) / np.sin(angle)
+            found = solved.slerp(rotations.from_quaternion(a), rotations.from_quaternion(b), t)
+            np.testing.assert_allclose(found, rotations.from_quaternion(arc), rtol=0, atol=1e-9)
+
+
+def test_slerp_is_the_shorter_and_the_steadier_way():
+    (angle, even), (longer, uneven) = (
+        (float(line.split("by ")[1].split(" deg")[0]), float(line.split(" ")[-1]))
+        for line in printed("figure-slerp").splitlines()
+    )
+    assert even == 1.0 and uneven > 2 and longer > 1.5 * angle
+
+
+def test_three_right_forward_kinematics_and_two_wrong_ones():
+    right, *wrong = printed("figure-errors").splitlines()
+    assert right.endswith("below 2e-15 m")
+    assert all(numbers(line.split(": ")[1])[0] > 0.1 for line in wrong)
 
 
 @pytest.mark.parametrize("pitch", [0.5, -1.2])
@@ -106,8 +141,9 @@ def test_the_branches_and_their_limits(followed):
     inside = np.sum([np.all(branch) for branch in GOLDEN["branch_within_limits_per_joint"]])
     assert [row[4] for row in rows].count(101) == inside == 2
     assert rows[0][:5] == [1, -28, 50, 48, 101]
-    assert printed("eight-branches").count("below 1e-12") == 4
-    assert "NOT" not in printed("eight-branches")
+    assert "half a turn, below 1e-12" in printed("eight-speeds")
+    everything = "".join(printed(i) for i, cell in CELLS.items() if cell["cell_type"] == "code")
+    assert "NOT below" not in everything and "differs from the course" not in everything
 
 
 def test_inside_agrees_with_the_robot(solved, followed):
@@ -129,7 +165,7 @@ def test_the_largest_speed_is_the_golden_one(solved, followed):
     found = [solved.largest_speed(branch, points, own) for branch in q]
     np.testing.assert_allclose(found, expected.speed, rtol=1e-12)
     rows = [
-        numbers(line.split("each")[-1].split("own")[-1]) for line in printed("eight-speeds").splitlines()[2:4]
+        numbers(line.split("each")[-1].split("own")[-1]) for line in printed("eight-speeds").splitlines()[3:5]
     ]
     assert rows == [[0.3001, 0.3001, 6], [round(expected.speed[0], 4)] * 2 + [1]]
 
@@ -145,7 +181,7 @@ def test_the_dependence_on_n():
     rows = [numbers(line) for line in printed("dependence-on-n").splitlines()[2:]]
     assert [int(row[0]) for row in rows] == [101, 201, 1001, 5001]
     assert [row[1] for row in rows][2:] == [round(GOLDEN["by_N"]["5001"]["length"], 4)] * 2
-    for N, _, spread, slowest, fastest, *wrapped in rows:
+    for N, _, _, spread, slowest, fastest, *wrapped in rows:
         golden = GOLDEN["by_N"][str(int(N))]
         assert slowest == round(min(golden["max_path_speed_per_branch"]), 4)
         assert fastest == round(max(golden["max_path_speed_per_branch"]), 4)
@@ -154,12 +190,18 @@ def test_the_dependence_on_n():
         np.testing.assert_allclose(wrapped, faulty[[6, 7]], atol=1.1e-4)
 
 
-def test_the_bug_hunt_shows_seven_slow_branches_and_the_repair_none():
-    first = numbers(printed("bug-hunt-code").splitlines()[0].split(":")[1].split("m/s")[0])
-    assert (first.count(0.0059), first.count(0.3001)) == (7, 1)
-    lines = printed("bug-hunt-repair").splitlines()
-    assert numbers(lines[0].split(":")[1]) == [0.3001] * 8
-    assert numbers(lines[1].split(":")[1]) == [0.3] * 8
+def test_the_bug_hunt_is_off_and_its_repair_is_not():
+    off, mended = (
+        [float(line.split()[-1]) for line in printed(f"bug-hunt-{i}").splitlines()[2:5]]
+        for i in ("code", "repair")
+    )
+    np.testing.assert_allclose(off[0], 0.3001 - 0.0059, atol=1.1e-4)
+    assert max(mended) <= 1e-4 < 0.002 < off[2]
+
+
+def test_the_speed_is_constant_and_far_too_low_from_wrapped_angles():
+    shown = printed("figure-constancy").splitlines()
+    assert [numbers(line.split(": ")[1]) for line in shown[:2]] == [[0.3001] * 2, [0.0059] * 2]
 
 
 def test_the_sources_figures_are_told_with_their_right_values():

@@ -164,5 +164,5 @@ def way_missed(args, value, right) -> str:
     if off > 1e-6:
         return f"R^T R of your answer differs from the identity by {off:.2g}: it is no rotation"
     told = f"your attitude is {_degrees(_apart(value, right))} away from the right one"
-    ends = [_degrees(_apart(A, B)) for A, B in ((R_0, value), (value, R_1), (R_0, R_1))]
+    ends = [_degrees(round(_apart(A, B), 3)) for A, B in ((R_0, value), (value, R_1), (R_0, R_1))]
     return f"{told}: {ends[0]} from R_0 and {ends[1]} from R_1, which are {ends[2]} apart"

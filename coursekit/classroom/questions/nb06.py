@@ -39,8 +39,8 @@ QUESTIONS = [
     Question(
         name="projected",
         draw=lambda rng: {"Y": float(rng.choice([-0.5, 0.5, 1.0])), "Z": float(rng.choice([0.0, 0.5, 1.0]))},
-        text="A point of the letter has Y = {Y}, Z = {Z}. Where does it lie on the sphere, as a list x, y, z, "
-        "in metres (to three digits)?",
+        text="A point of the letter has Y = {Y}, Z = {Z}. Where on the sphere does it lie, as a list x, y, "
+        "z, in metres (to three digits)?",
         answer=lambda Y, Z: (np.array([1, Y, Z]) / (1 + Y * Y + Z * Z) + [-0.5, 0, 0.5]).tolist(),
         slips={
             "This is the point of the plane, before the projection.": lambda Y, Z: [0.5, Y, 0.5 + Z],

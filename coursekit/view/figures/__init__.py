@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from mpl_toolkits.mplot3d import Axes3D
 
 INK = "#2B3038"  # links, notes and thin lines
-SHADES = 64  # colors of a stored figure
+SHADES = 128  # colors of a stored figure
 
 
 def palette(name: str) -> str:
@@ -32,7 +32,7 @@ def show() -> None:
     figure, drawn, small = plt.gcf(), io.BytesIO(), io.BytesIO()
     figure.savefig(drawn, format="png", dpi=100)
     image = Image.open(drawn).convert("RGB")
-    image.quantize(SHADES, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).save(small, "PNG")
+    image.quantize(SHADES, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(small, "PNG")
     said = f"<Figure size {image.width}x{image.height} with {len(figure.axes)} Axes>"
     plt.close(figure)
     display({"image/png": base64.b64encode(small.getvalue()).decode(), "text/plain": said}, raw=True)

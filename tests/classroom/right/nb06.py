@@ -6,6 +6,8 @@ import math
 
 import numpy as np
 
+from coursekit.kinematics import lie
+
 
 def tool_frames__loop(points, centre):
     frames = []
@@ -170,3 +172,72 @@ def largest_speed__rates(q, points, v_max):
     dt = np.linalg.norm(np.diff(points, axis=0), axis=1)
     rates = np.einsum("ij,i->ij", np.abs(np.diff(q, axis=0)), 1 / dt)
     return 1 / np.max(rates / v_max)
+
+
+def _quaternion(R):
+    """Sizes from the diagonal, signs from the row of the largest; w >= 0."""
+    (a, b, c), (d, e, f), (g, h, i) = np.asarray(R, float)
+    rows = [
+        [1 + a + e + i, h - f, c - g, d - b],
+        [h - f, 1 + a - e - i, b + d, c + g],
+        [c - g, b + d, 1 - a + e - i, f + h],
+        [d - b, c + g, f + h, 1 - a - e + i],
+    ]
+    q = np.array(max(rows, key=lambda row: row @ np.array(row)))
+    q = q / np.sqrt(q @ q)
+    return q if q[0] >= 0 else -q
+
+
+def angle_axis__math(R):
+    w, x, y, z = map(float, _quaternion(R))
+    length = math.sqrt(x * x + y * y + z * z)
+    if length < 1e-300:
+        return [0.0, 0.0, 0.0]
+    theta = 2 * math.atan2(length, w)
+    return [theta * x / length, theta * y / length, theta * z / length]
+
+
+def angle_axis__by_cases(R):
+    """The textbook in the middle, the column of R + 1 near half a turn."""
+    R = np.asarray(R, float)
+    v = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / 2
+    s, c = np.linalg.norm(v), (np.trace(R) - 1) / 2
+    theta = np.arctan2(s, c)
+    if c > -0.9:
+        return v if s == 0 else v / s * theta
+    B = (R + R.T) / 2 - c * np.eye(3)
+    k = B[:, np.argmax(np.diag(B))]
+    k = k / np.linalg.norm(k)
+    return theta * (k if k @ v >= 0 else -k)
+
+
+def angle_axis__scaled(R):
+    """No quotient but one: theta over its sine of the half."""
+    q = _quaternion(R)
+    half = np.arctan2(np.linalg.norm(q[1:]), q[0])
+    return 2 * q[1:] / np.sinc(half / np.pi) if half else 0.0 * q[1:]
+
+
+def slerp__from_the_left(R_0, R_1, t):
+    """The same turn, seen from the space frame, stands in front."""
+    return lie.exp3(t * np.array(angle_axis__math(R_1 @ R_0.T))) @ R_0
+
+
+def slerp__quaternions(R_0, R_1, t):
+    a, b = _quaternion(R_0), _quaternion(R_1)
+    if a @ b < 0:
+        b = -b
+    angle = math.acos(min(1.0, float(a @ b)))
+    share = (1 - t) * a + t * b if angle < 1e-7 else np.sin((1 - t) * angle) * a + np.sin(t * angle) * b
+    w, *v = share / np.linalg.norm(share)
+    K = lie.hat3(v)
+    return np.eye(3) + 2 * w * K + 2 * K @ K
+
+
+def slerp__rodrigues(R_0, R_1, t):
+    beta = np.array(angle_axis__by_cases(np.transpose(R_0) @ R_1)) * t
+    theta = float(np.linalg.norm(beta))
+    if theta == 0:
+        return np.array(R_0, float)
+    K = lie.hat3(beta / theta)
+    return R_0 @ (np.eye(3) + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K)
