@@ -8,7 +8,8 @@ it, and `seen` has the line that opens it in 3D. What is written is used by the 
 questions with numbers that change and the ticks of a notebook's goals stand in `question` and `questions/`.
 The grader judges with the same `verdict`.
 
-Everybody has an arm of their own (`own`).
+Everybody has an arm of their own (`own`). A course of one's own is a folder (`your_course`); a corrected
+release reaches those who are at work through `update` and `merge`, which know what a student wrote.
 
 What lies here goes to students, but for three rooms of the instructors: `mistakes/`, `author/` and `grader/`.
 """

@@ -45,17 +45,24 @@ def update(new: Path, folder: Path | None = None) -> str:
     what the folder holds; then nothing is changed.
     """
     folder = Path(folder or ROOT)
+    contents, told = plan(new, folder)
+    if contents:
+        _replace(folder, contents)
+    return told
+
+
+def plan(new: Path, folder: Path) -> tuple[dict[str, bytes | None], str]:
+    """What an update would do, with nothing done: ({file: new bytes, or None where it goes}, its text)."""
     before = _list(folder, "nothing can be updated there")
     with _opened(Path(new), folder) as source:
         after = _list(source, "name the folder or the zip of a release")
         _same_course(folder, before, source, after)
         contents, told = _planned(folder, before, source, after)
     if not contents:
-        return f"{folder} holds this release already: nothing changed"
-    _replace(folder, contents)
+        return {}, f"{folder} holds this release already: nothing changed"
     was = f"{before['version']} before" if before["version"] != after["version"] else "corrected"
     head = f"{folder}: version {after['version']} of {after['title']}, {was}"
-    return "\n".join([head, *told, "`coursekit update --undo` brings the old one back"])
+    return contents, "\n".join([head, *told, "`coursekit update --undo` brings the old one back"])
 
 
 def undo(folder: Path | None = None) -> str:

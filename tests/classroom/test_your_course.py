@@ -443,6 +443,17 @@ def test_a_correction_reaches_the_whole_class(in_class, folder, tmp_path):
     assert json.loads((in_class / "s2" / "student.json").read_text())["id"] == "s2"
 
 
+def test_if_one_folder_cannot_be_updated_none_is(in_class, folder, tmp_path):
+    (in_class / "s3" / "notebooks" / f"{STEM}.ipynb").write_text("{")
+    before = {p: p.read_bytes() for p in in_class.rglob("*") if p.is_file()}
+    toml_ = folder / "course.toml"
+    toml_.write_text(toml_.read_text().replace('version = "1"', 'version = "2"'))
+    text = told(release.release, in_class, read(folder), tmp_path / "roster.csv")
+    assert str(in_class / "s3") in text and "is no notebook" in text
+    assert {p: p.read_bytes() for p in in_class.rglob("*") if p.is_file()} == before
+    assert sorted(p.name for p in in_class.iterdir()) == ["s1", "s2", "s3"]
+
+
 def test_the_grader_knows_whose_arm_it_is(in_class, folder, tmp_path):
     """Ada's numbers are right for her, and wrong for Bo, who copied them, note and all."""
     ada = document.read(in_class / "s1" / "notebooks" / f"{STEM}.ipynb")
@@ -468,6 +479,20 @@ def test_the_grader_knows_whose_arm_it_is(in_class, folder, tmp_path):
     assert s1["exercises"]["reach"]["points"] == 1 and not s1["notes"]
     assert s2["exercises"]["reach"]["points"] == 0
     assert s2["notes"] == ["the notebook was handed out to s1"]
+
+
+def test_who_reads_the_sheet_in_a_function_is_right_in_the_grades_too(in_class, folder, tmp_path):
+    """`check` calls it right, so the box has the sheet, too: it shows what is asked, and no answer."""
+    work = document.read(in_class / "s1" / "notebooks" / f"{STEM}.ipynb")
+    source = "from coursekit.classroom import own_sheet\nL = own_sheet().lengths\n\n"
+    source += "def reach(lengths):\n    return sum(L.values())"
+    next(c for c in work["cells"] if c["id"] == "reach")["source"] = source
+    (tmp_path / "in" / "s1").mkdir(parents=True)
+    document.write(tmp_path / "in" / "s1" / f"{STEM}.ipynb", work)
+    run = ["grade", "--course", str(folder), "--no-box", "--jobs", "1"]
+    assert main([*run, str(tmp_path / "in"), str(tmp_path / "grades")]) == 0
+    (record,) = records(tmp_path / "grades")
+    assert record["exercises"]["reach"]["points"] == 1
 
 
 def test_a_notebook_newer_than_the_course_is_told_in_the_grades(in_class, folder, tmp_path):

@@ -45,13 +45,14 @@ def release(out: Path, course: Course | None = None, students: Path | None = Non
             update.write_list(master, course.title, course.version)
             return _put(master, out)
         _refuse_other(out, {student.id for student in people})
-        told = []
+        theirs = {student.id: Path(scratch) / "theirs" / student.id for student in people}
         for student in people:
-            mine = Path(scratch) / "theirs" / student.id
-            shutil.copytree(master, mine)
-            _personal(mine, course, student)
-            update.write_list(mine, course.title, course.version)
-            told.append(_put(mine, out / student.id))
+            shutil.copytree(master, theirs[student.id])
+            _personal(theirs[student.id], course, student)
+            update.write_list(theirs[student.id], course.title, course.version)
+            if (out / student.id).exists():  # if one of them cannot be updated, none is
+                update.plan(theirs[student.id], out / student.id)
+        told = [_put(new, out / student) for student, new in theirs.items()]
     changes = [line for text in told for line in text.splitlines()[1:] if ": kept: " not in line]
     heads = [text.splitlines()[0] for text in told]
     return "\n".join(

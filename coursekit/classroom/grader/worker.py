@@ -16,6 +16,7 @@ import tempfile
 import threading
 import time
 import zlib
+from dataclasses import asdict
 from functools import cache
 from pathlib import Path
 
@@ -80,7 +81,7 @@ def grade(job: dict, libraries: _Libraries) -> dict:
         return {"exercises": unreadable, "notes": [str(error)]}
     arm, notes = handed_out(data, job["student"], course)
     before = time.process_time()
-    library = libraries.of(job["library"])
+    library = libraries.of({**job["library"], **_drawn(exercises, arm)})
     student = Student(sources, library, limits, bubblewrap() if job["box"] else None, len(exercises))
     try:
         for exercise in _order(exercises):
@@ -110,6 +111,12 @@ def grade(job: dict, libraries: _Libraries) -> dict:
         "boxes": student.starts,
         "cpu": round(cpu, 2),
     }
+
+
+def _drawn(exercises: list[Exercise], arm: int) -> dict[str, str]:
+    """The sheet of the student's arm, for the box, where an exercise asks for it."""
+    asked = any(exercise.own for exercise in exercises)
+    return {"own.json": json.dumps(asdict(own.sheet_of(arm)))} if asked else {}
 
 
 def _order(exercises: list[Exercise]) -> list[Exercise]:
