@@ -84,6 +84,32 @@ def turned(args, angle):
     return {"arrows": [(np.zeros(3), y)], "lines": [(np.zeros(3), k)]}
 
 
+def at_a_distance(args, angles):
+    """Subproblem 3: the vector x after each turn; y is the point it should be at the distance from."""
+    k, x, y, _ = args
+    ends = [y_ for t in angles for _, y_ in turned((k, x, y), t)["arrows"]]
+    return {"arrows": [(np.zeros(3), end) for end in ends], "lines": [(np.zeros(3), k)], "points": [y]}
+
+
+def turned_twice(args, rows):
+    """Subproblem 2: the vector x after both turns, for each solution."""
+    k1, k2, x, y = args
+    arrows = []
+    for t1, t2 in rows:
+        ((_, between),) = turned((k2, x, y), t2)["arrows"]
+        arrows += turned((k1, between, y), t1)["arrows"]
+    return {"arrows": arrows, "lines": [(np.zeros(3), k1), (np.zeros(3), k2)]}
+
+
+def exam_arm(args, theta2):
+    """The arm of the exam with this theta_2; its end should be at p."""
+    _, t1, t3, (a1, d1, a2, d4) = args
+    t23 = theta2 + t3
+    r = np.cumsum([0, 0, a1, a2 * np.cos(theta2), d4 * np.sin(t23)])
+    z = np.cumsum([0, d1, 0, a2 * np.sin(theta2), -d4 * np.cos(t23)])
+    return {"chains": [np.column_stack([r * np.cos(t1), r * np.sin(t1), z])]}
+
+
 def plane_arm(t2, t3, lengths):
     """Shoulder, elbow, kink and wrist centre in the plane of an arm like the KR6, as points in space."""
     a1, d1, a2, a3, _ = lengths

@@ -247,6 +247,7 @@ EXERCISES = [
     ),
     Exercise(
         "subproblem3(k, x, y, distance)",
+        look=looks.at_a_distance,
         points=2,
         draw=_draw.distance,
         shape=(2,),
@@ -281,6 +282,7 @@ EXERCISES = [
     ),
     Exercise(
         "subproblem2(k1, k2, x, y)",
+        look=looks.turned_twice,
         points=3,
         draw=_draw.two_turns,
         shape=(2, 2),

@@ -300,6 +300,7 @@ EXERCISES = [
     ),
     Exercise(
         "theta2_system(p, theta1, theta3, lengths)",
+        look=looks.exam_arm,
         points=2,
         draw=_exam.reached,
         shape=(),
