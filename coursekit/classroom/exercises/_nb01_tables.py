@@ -6,6 +6,7 @@ import numpy as np
 
 from coursekit.classroom.exercise import POSE, Edge, Exercise, Hint
 from coursekit.classroom.exercises import looks
+from coursekit.classroom.exercises._arm import turn
 from coursekit.classroom.exercises._axes import NEAR, between, deg, mm, pose_gap
 from coursekit.classroom.exercises._nb01 import angles, dh_row
 
@@ -44,15 +45,15 @@ def frames(rows):
     """Frames 0 to 6 of a standard table whose theta column is the drawn pose, (7, 4, 4)."""
     found = [np.eye(4)]
     for a, alpha, d, theta in rows:
-        ca, sa, ct, st = np.cos(alpha), np.sin(alpha), np.cos(theta), np.sin(theta)
-        step = [
-            [ct, -st * ca, st * sa, a * ct],
-            [st, ct * ca, -ct * sa, a * st],
-            [0, sa, ca, d],
-            [0, 0, 0, 1],
-        ]
-        found.append(found[-1] @ np.array(step))
+        found.append(found[-1] @ _along(2, theta, d) @ _along(0, alpha, a))
     return np.array(found)
+
+
+def _along(i, angle, slide):
+    """A turn about an axis of the frame and a slide along it, (4, 4)."""
+    T = np.eye(4)
+    T[:3, :3], T[i, 3] = turn(i, angle), slide
+    return T
 
 
 def _table_gap(args, rows, right):

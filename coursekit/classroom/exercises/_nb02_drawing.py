@@ -160,12 +160,12 @@ def _pose(rng, turn=True, shift=True):
 
 
 def _screws(rng, n=None):
-    columns = []
+    found = []
     for _ in range(n or int(rng.integers(2, 6))):
         w, q = _direction(rng), _point(rng)
         slide = rng.random() < 0.25
-        columns.append(np.concatenate([0 * w, w] if slide else [w, np.cross(q, w)]))
-    return np.column_stack(columns)
+        found.append(np.concatenate([0 * w, w] if slide else [w, np.cross(q, w)]))
+    return np.column_stack(found)
 
 
 def _arm(turn=True, shift=True, n=None):

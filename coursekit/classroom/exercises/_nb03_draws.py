@@ -192,7 +192,7 @@ def distance(rng, flat=False):
     while True:
         k, x, y = _unit(rng), rng.uniform(-1, 1, 3), rng.uniform(-1, 1, 3)
         if flat:
-            x, y = x - k * (k @ x), y - k * (k @ y)
+            x, y = (p - (p @ k) * k for p in (x, y))
         a, b, high = np.linalg.norm(np.cross(k, x)), np.linalg.norm(np.cross(k, y)), k @ (y - x)
         if min(a, b) > 0.3 and (flat or min(abs(high), abs(k @ x), abs(k @ y)) > 0.2):
             bend = rng.uniform(0.4, 2.7)  # the angle of the triangle, at the axis

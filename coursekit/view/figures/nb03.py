@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
+from coursekit.kinematics import lie, subproblems
 from coursekit.view.figures import INK, palette
 
 STYLES = (("accent", "o-"), ("trace", "s--"), ("body", "^-."), ("axis", "D:"))
@@ -154,9 +155,7 @@ def _two_circles(ax):
     x = x / np.linalg.norm(x)
     y = np.array([-0.3, 0.75, 0.0])
     y[2] = np.sqrt(1 - y @ y)
-    c, n = k1 @ k2, np.cross(k1, k2)
-    a, b = np.linalg.solve([[1, c], [c, 1]], [k1 @ y, k2 @ x])
-    g = np.sqrt((1 - a * a - b * b - 2 * a * b * c) / (n @ n))
+    near, far = (lie.exp3(turn * k2) @ x for _, turn in subproblems.subproblem2(k1, k2, x, y))
     u, v = np.mgrid[0 : 2 * np.pi : 13j, 0 : np.pi : 25j]
     ax.plot_wireframe(
         np.cos(u) * np.sin(v), np.sin(u) * np.sin(v), np.cos(v), lw=0.5, color="#DDE1E6", ccount=0
@@ -166,9 +165,8 @@ def _two_circles(ax):
         circle = start * np.cos(t) + np.cross(k, start) * np.sin(t) + k * (k @ start) * (1 - np.cos(t))
         ax.plot(*circle.T, style, lw=1.8, color=palette("trace" if style == "--" else "accent"))
         ax.plot(*np.array([-1.35 * k, 1.35 * k]).T, lw=1, color=INK)
-    for side in (g, -g):
-        ax.plot(*(a * k1 + b * k2 + side * n), "o", ms=8, color=palette("z"))
-    near = a * k1 + b * k2 - g * n
+    for meeting in (far, near):
+        ax.plot(*meeting, "o", ms=8, color=palette("z"))
     for point, name in (
         (1.5 * k1, "k1"),
         (1.75 * k2, "k2"),
