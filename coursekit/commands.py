@@ -95,6 +95,7 @@ def _grade(options: Namespace) -> None:
         regrade=False if options.regrade is None else options.regrade or True,
         roster_path=options.roster,
         follow_on=options.follow_on,
+        lines=not options.no_lines,
         late=options.late,
         course=course,
     )
@@ -217,6 +218,7 @@ COMMANDS = {
                 metavar="SHARE",
                 help="of the points, where only an earlier exercise that is called is wrong (1)",
             ),
+            _argument("--no-lines", action="store_true", help="do not search wrong answers for the line"),
             _argument("--no-box", action="store_true", help="run students' code without a sandbox"),
         ),
     ),

@@ -79,13 +79,16 @@ def as_root() -> bool:
 
 
 class Box:
-    """One Python in its box: `ask(request, seconds)` as often as you like, then `close()`."""
+    """One Python in its box: `ask(request, seconds)` as often as you like, then `close()`.
 
-    def __init__(self, library: Path, limits: Limits, program: str | None) -> None:
+    released : the library is the one that students have, and not a locked one
+    """
+
+    def __init__(self, library: Path, limits: Limits, program: str | None, released: bool = False) -> None:
         self.limits = limits
         self._home = None if program else tempfile.mkdtemp(prefix="home")
         self._process = subprocess.Popen(
-            _command(library, limits, program, self._home or "/tmp/home"),
+            _command(library, limits, program, self._home or "/tmp/home", released),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,  # what is printed below Python's level goes nowhere
@@ -213,7 +216,7 @@ def _parents() -> Iterator[tuple[int, int]]:
 # ---- the command
 
 
-def _command(library: Path, limits: Limits, program: str | None, home: str) -> list[str]:
+def _command(library: Path, limits: Limits, program: str | None, home: str, released: bool) -> list[str]:
     environment = {
         "HOME": home,
         "PATH": f"{Path(sys.executable).parent}:/usr/bin:/bin",
@@ -225,7 +228,8 @@ def _command(library: Path, limits: Limits, program: str | None, home: str) -> l
         "OPENBLAS_NUM_THREADS": "1",
     }
     python = [sys.executable, "-s"] if program is None else [os.path.realpath(sys.executable), "-I", "-S"]
-    python += ["-B", str(library / "runner.py"), *([] if program is None else [PACKAGES])]
+    python += ["-B", str(library / "runner.py"), "released" if released else "locked"]
+    python += [] if program is None else [PACKAGES]
     if shutil.which("prlimit"):
         asked = {"as": limits.memory, "fsize": limits.home, "cpu": limits.cpu, "nproc": limits.processes}
         python = ["prlimit", *(f"--{name}={value}" for name, value in {**asked, "core": 0}.items()), *python]

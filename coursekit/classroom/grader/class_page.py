@@ -8,7 +8,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from .marks import Mark, Notebook, Standing, whole
-from .overview import NOT_WRITTEN, Item, help_wanted, is_right, items, middle, needs_your_eye
+from .overview import NOT_WRITTEN, Item, Mistake, help_wanted, is_right, items, middle, needs_your_eye
 from .report import page_name, text
 
 STYLE = """
@@ -23,21 +23,30 @@ h2 { margin: 2rem 0 .3rem; } p { margin: .3rem 0; } .soft { color: var(--soft); 
 table { border-collapse: collapse; } td, th { padding: .2rem .5rem; text-align: left; vertical-align: top; }
 tbody tr { border-top: 1px solid var(--line); } code { font-size: .95em; }
 td.n { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
-.bar { display: block; width: 8rem; height: .7rem; border: 1px solid var(--line); margin-top: .35rem; }
+.bar { display: block; width: 8rem; height: .7rem; border: 1px solid var(--line); margin: .35rem 0 0; }
 .bar i { display: block; height: 100%; background: var(--bar); print-color-adjust: exact; }
 ul { margin: 0; padding-left: 1.1rem; } details summary { cursor: pointer; }
-.map td { text-align: center; padding: .1rem .3rem; border-left: 1px solid var(--line); }
+.map td { text-align: center; padding: .1rem 0; min-width: 1.6rem; border-left: 1px solid var(--line); }
 .map th[scope=row] { position: sticky; left: 0; background: Canvas; white-space: nowrap; font-weight: 400;
                      max-width: 14rem; overflow: hidden; text-overflow: ellipsis; }
-.map thead th.x { height: 9rem; vertical-align: bottom; padding: .2rem .1rem; }
-.map thead th.x span { writing-mode: vertical-rl; transform: rotate(180deg); font-weight: 400; }
+.map thead th.x { height: 12rem; vertical-align: bottom; padding: .2rem .1rem; }
+.map thead th.x span { writing-mode: vertical-rl; transform: rotate(180deg); font-weight: 400;
+                        white-space: nowrap; }
 .ok, .no, .part, .off { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 .ok { background: var(--ok); } .no { background: var(--no); } .part { background: var(--part); }
 .off { background: var(--off); }
 a { color: inherit; }
+@media (max-width: 45rem) { .list thead { display: none; } .list tr, .list td { display: block; }
+  .list tr { padding: .5rem 0; } .list td, .list td.n { padding: .05rem 0; text-align: left; } }
 @media print { body { max-width: none; font-size: 11px; } details > *:not(summary) { display: block; }
                tr { break-inside: avoid; } .wide { overflow: visible; } }
 """
+PARTS = {
+    "mistakes": "exercises and mistakes",
+    "help": "who needs help with what",
+    "map": "students and exercises",
+}
+SHOWN = 4  # mistakes of an exercise, before one asks for more
 MEANING = (
     ("ok", "✓", "right"),
     ("no", "✗", "wrong"),
@@ -52,12 +61,13 @@ def write_class_page(path: Path, class_: list[Standing]) -> None:
     """Write the page; everything in it is of the records and of the instructor's decisions."""
     found = items(class_)
     names = {one.student: one.name or one.student for one in class_}
-    parts = [_head(class_), _eye(class_, names), _exercises(found, names), _help(class_, found, names)]
+    parts = [_head(class_), _eye(class_, names), _exercises(found, names)]
+    parts += [_help(class_, found, names), _map(class_, found)]
     page = (
         "<!doctype html><html lang='en'><head><meta charset='utf-8'>"
         "<meta name='viewport' content='width=device-width'>"
         f"<title>The class at a glance</title><style>{STYLE}</style></head><body>"
-        f"<h1>The class at a glance</h1>{''.join(parts)}{_map(class_, found)}</body></html>\n"
+        f"<h1>The class at a glance</h1>{''.join(parts)}</body></html>\n"
     )
     part = path.with_name(f".{path.name}.part")
     part.write_text(page, encoding="utf-8", errors="replace")
@@ -69,7 +79,10 @@ def _head(class_: list[Standing]) -> str:
     of = whole(max((one.of for one in class_), default=0))
     half = middle(class_)
     told = f"median {whole(half)} of {of} points, " if half is not None else ""
-    return f"<p>{len(class_)} students, {there} handed something in, {told}{date.today().isoformat()}</p>"
+    links = "".join(f" · <a href='#{name}'>{word}</a>" for name, word in PARTS.items())
+    return (
+        f"<p>{len(class_)} students, {there} handed something in, {told}{date.today().isoformat()}{links}</p>"
+    )
 
 
 def _eye(class_: list[Standing], names: dict[str, str]) -> str:
@@ -85,9 +98,9 @@ def _exercises(found: list[Item], names: dict[str, str]) -> str:
         f"<th scope='col'>{word}</th>" for word in ("", "exercise", "right", "", "what went wrong")
     )
     return (
-        "<h2>Exercises and mistakes</h2><p class='soft'>Share of those who handed the notebook in. Best and "
-        "last third: by all other exercises.</p>"
-        f"<div class='wide'><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>"
+        "<h2 id='mistakes'>Exercises and mistakes</h2>"
+        "<p class='soft'>Of those who handed the notebook in; best and last third by all other exercises.</p>"
+        f"<table class='list'><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"
     )
 
 
@@ -95,22 +108,22 @@ def _exercise(item: Item, names: dict[str, str]) -> str:
     percent = round(100 * item.share)
     thirds = ""
     if item.upper is not None and item.lower is not None:
-        thirds = f"<br><span class='soft'>best third {item.upper:.0%}, last {item.lower:.0%}</span>"
+        thirds = f"<span class='soft'>best third {item.upper:.0%}<br>last third {item.lower:.0%}</span>"
     doubt = f"<p><strong>{text(item.doubt)}</strong></p>" if item.doubt else ""
-    rows = "".join(
-        f"<li>{len(m.students)} × {text(m.line + ': ' if m.line else '')}{text(m.text)}"
-        f"<details><summary class='soft'>who</summary>{_people(m.students, names)}</details></li>"
-        for m in item.mistakes[:8]
-    )
-    rest = len(item.mistakes) - 8
-    rows += f"<li class='soft'>{rest} more, of one or a few students each</li>" if rest > 0 else ""
+    lines = [
+        f"<details><summary>{len(m.students)} × {_said(m)}</summary>{_people(m.students, names)}</details>"
+        for m in item.mistakes
+    ]
+    rows = "".join(lines[:SHOWN])
+    if rest := lines[SHOWN:]:
+        rows += f"<details><summary class='soft'>{len(rest)} more</summary>{''.join(rest)}</details>"
     missing = item.handed_in - item.written
-    rows += f"<li class='soft'>{missing} × not written</li>" if missing else ""
+    rows += f"<p class='soft'>{missing} × not written</p>" if missing else ""
     return (
         f"<tr><td>{text(item.unit)}</td><td><code>{text(item.name)}</code></td>"
         f"<td class='n'>{item.right} of {item.handed_in}</td>"
-        f"<td>{percent} %<span class='bar'><i style='width:{percent}%'></i></span>{thirds}</td>"
-        f"<td>{doubt}<ul>{rows}</ul></td></tr>"
+        f"<td class='n'>{percent} %<span class='bar'><i style='width:{percent}%'></i></span>{thirds}</td>"
+        f"<td>{doubt}{rows}</td></tr>"
     )
 
 
@@ -120,18 +133,17 @@ def _help(class_: list[Standing], found: list[Item], names: dict[str, str]) -> s
         key=lambda mistake: -len(mistake.students),
     )
     groups = "".join(
-        f"<li><code>{text(m.exercise)}</code> {text(m.line + ': ' if m.line else '')}{text(m.text)}: "
-        f"{_people(m.students, names)}</li>"
+        f"<li><code>{text(m.exercise)}</code> {_said(m)}: {_people(m.students, names)}</li>"
         for m in common[:12]
     )
     single = "".join(
-        f"<li>{_link(student, names)}: {len(lacking)} exercises"
-        f"<details><summary class='soft'>which</summary>{', '.join(map(text, lacking))}</details></li>"
+        f"<details><summary>{_link(student, names)}: {len(lacking)} exercises</summary>"
+        f"{', '.join(map(text, lacking))}</details>"
         for student, lacking in help_wanted(class_, found)[:20]
     )
-    told = "<h2>Who needs help with what</h2>"
+    told = "<h2 id='help'>Who needs help with what</h2>"
     told += f"<h3>The same mistake</h3><ul>{groups}</ul>" if groups else ""
-    told += f"<h3>Much is missing or wrong</h3><ul>{single}</ul>" if single else ""
+    told += f"<h3>Much is missing or wrong</h3>{single}" if single else ""
     return told if groups or single else ""
 
 
@@ -149,7 +161,8 @@ def _map(class_: list[Standing], found: list[Item]) -> str:
         for one in order
     )
     return (
-        f"<h2>Students and exercises</h2><p class='soft'>{meaning}</p><div class='wide'><table class='map'>"
+        f"<h2 id='map'>Students and exercises</h2><p class='soft'>{meaning}</p>"
+        "<div class='wide'><table class='map'>"
         f"<thead><tr><th scope='col'>student</th><th scope='col'>points</th>{head}</tr></thead>"
         f"<tbody>{rows}</tbody></table></div>"
     )
@@ -177,6 +190,14 @@ def _meaning(mark: Mark, nb: Notebook) -> tuple[str, str, str]:
     if is_right(mark):
         return MEANING[0]
     return MEANING[3] if mark.kind in NOT_WRITTEN else MEANING[1]
+
+
+def _said(mistake: Mistake) -> str:
+    return (
+        f"{text(mistake.line)} <span class='soft'>({text(mistake.text)})</span>"
+        if mistake.line
+        else text(mistake.text)
+    )
 
 
 def _people(students: list[str], names: dict[str, str]) -> str:

@@ -21,13 +21,13 @@ def candidates(
     course: Course, unit: str, result: dict[str, dict], sources: list[str]
 ) -> list[tuple[Exercise, list[str]]]:
     """Wrong exercises that call wrong earlier ones, and which, in the order of the notebook."""
-    uses = _uses(sources)
+    names = uses(sources)
     found, wrong = [], list[str]()
     for exercise in course.exercises(unit):
         row = result[exercise.name]
         if row["points"]:
             continue
-        if earlier := [name for name in wrong if name in _reached(exercise.name, uses)]:
+        if earlier := [name for name in wrong if name in reached(exercise.name, names)]:
             found.append((exercise, earlier))
         wrong.append(exercise.name)
     return found
@@ -65,9 +65,9 @@ def _solutions(course: Course, unit: str, names: list[str], but: str) -> list[st
     return sources
 
 
-def _uses(sources: list[str]) -> dict[str, set[str]]:
+def uses(sources: list[str]) -> dict[str, set[str]]:
     """{function: the names in its body}, of all cells; the last definition counts."""
-    uses: dict[str, set[str]] = {}
+    found: dict[str, set[str]] = {}
     for source in sources:
         try:
             tree = ast.parse(source)
@@ -75,16 +75,16 @@ def _uses(sources: list[str]) -> dict[str, set[str]]:
             continue
         for node in ast.walk(tree):
             if isinstance(node, ast.FunctionDef):
-                uses[node.name] = {inner.id for inner in ast.walk(node) if isinstance(inner, ast.Name)}
-    return uses
+                found[node.name] = {inner.id for inner in ast.walk(node) if isinstance(inner, ast.Name)}
+    return found
 
 
-def _reached(name: str, uses: dict[str, set[str]]) -> set[str]:
+def reached(name: str, names: dict[str, set[str]]) -> set[str]:
     """Everything that a function calls, and what that calls in turn."""
-    reached: set[str] = set()
+    found: set[str] = set()
     waiting = [name]
     while waiting:
-        for inner in uses.get(waiting.pop(), set()) - reached:
-            reached.add(inner)
+        for inner in names.get(waiting.pop(), set()) - found:
+            found.add(inner)
             waiting.append(inner)
-    return reached
+    return found

@@ -28,7 +28,7 @@ from ..course import Course, the_course
 from . import decisions, pool, worker
 from .box import Limits, bubblewrap
 from .desk import Desk
-from .journal import Journal, seed_of, set_aside
+from .journal import Journal, seed_of
 from .submissions import Submissions, digest
 
 SPARE = 60  # seconds a worker may take beyond the limits of its submission
@@ -44,6 +44,7 @@ def grade_class(
     regrade: bool | list[str] = False,
     roster_path: Path | None = None,
     follow_on: float = 1.0,
+    lines: bool = True,
     late: float = 0.1,
     executor: futures.Executor | None = None,
     course: Course | None = None,
@@ -68,6 +69,7 @@ def grade_class(
         notebooks grades those anew, and of a notebook also what changed in its exercises
     roster_path : a CSV of id, name, email: everybody in it gets a row, Canvas and Moodle get their gradebooks
     follow_on, late : shares of the points, see `Decisions`
+    lines : search wrong answers for the line that is wrong (`clinic`): some two seconds each
     executor : where the jobs run: threads by default, each of which starts processes
 
     ValueError if there is no box, if a canary fails, if the course changed since the last run into `out`, or
@@ -89,19 +91,17 @@ def grade_class(
     path = out / "journal.jsonl"
     people = {one.id: one for one in roster.read(roster_path)} if roster_path else {}
     anew = [] if isinstance(regrade, bool) else _units_of(regrade, course, units)
-    if regrade is True:
-        set_aside(path)
     if seed is None:
-        seed = seed_of(path)
+        seed = None if regrade is True else seed_of(path)
         seed = secrets.randbits(48) if seed is None else seed
-    make = Jobs(course, units, seed=seed, box=box, limits=limits)
+    make = Jobs(course, units, seed=seed, box=box, limits=limits, lines=lines)
     run = {"seed": seed, "box": box, "limits": asdict(limits), **course_digests(course, units)}
     run["points"] = {e.name: e.points for unit in units for e in course.exercises(unit)}
     with contextlib.ExitStack() as stack:
         stack.callback(pool.close)
         if executor is None:
             executor = stack.enter_context(futures.ThreadPoolExecutor(jobs))
-        journal = Journal(path, run, anew)
+        journal = Journal(path, run, anew, aside=regrade is True)
         stack.enter_context(contextlib.closing(journal))
         copies = out / ".copies"  # not elsewhere: what a killed run left there, the next one finds
         shutil.rmtree(copies, ignore_errors=True)
@@ -169,9 +169,11 @@ def course_digests(course: Course, units: list[str]) -> dict[str, str]:
 class Jobs:
     """Jobs are plain data: all a worker needs beside an installed coursekit, on this machine or another."""
 
-    def __init__(self, course: Course, units: list[str], *, seed: int, box: bool, limits: Limits) -> None:
+    def __init__(
+        self, course: Course, units: list[str], *, seed: int, box: bool, limits: Limits, lines: bool = True
+    ) -> None:
         place = None if course == the_course() else course.place
-        self._common = {"course": place, "seed": seed, "box": box, "limits": asdict(limits)}
+        self._common = {"course": place, "seed": seed, "box": box, "limits": asdict(limits), "lines": lines}
         self._course, self._units = course, units
         self._libraries = {unit: worker.library(course, unit, seed) for unit in units}
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 from collections.abc import Collection
 from pathlib import Path
 
@@ -15,9 +16,10 @@ class Journal:
     that is another one, if somebody else grades into this folder, or if a line is no record.
 
     anew : units that are graded anew: what decides their grades may have changed, old records do not count
+    aside : keep what is there under another name, and begin a new journal
     """
 
-    def __init__(self, path: Path, run: dict, anew: Collection[str] = ()) -> None:
+    def __init__(self, path: Path, run: dict, anew: Collection[str] = (), aside: bool = False) -> None:
         self._path = path
         self._file = open(path, "a+b")  # noqa: SIM115 - close() closes it
         self.proved: set[str] = set()  # set-ups that passed their canaries in this run
@@ -25,6 +27,8 @@ class Journal:
         self._where: dict[tuple[str, str], tuple[int, str | None]] = {}
         try:
             self._lock()
+            if aside:
+                self._set_aside()
             self._file.seek(0)
             head = self._file.readline()
             if head.endswith(b"\n"):
@@ -151,12 +155,25 @@ class Journal:
             self._graded.add((record["student"], record["unit"]))
 
     def _append(self, record: dict) -> int:
-        self._file.seek(0, os.SEEK_END)
-        position = self._file.tell()
-        self._file.write(json.dumps(record).encode() + b"\n")
-        self._file.flush()
-        os.fsync(self._file.fileno())
+        position = self._file.seek(0, os.SEEK_END)
+        data, number = json.dumps(record).encode() + b"\n", self._file.fileno()
+        try:
+            while data:
+                data = data[os.write(number, data) :]
+            os.fsync(number)
+        except OSError as error:  # the disk is full, say: no half line stays
+            os.ftruncate(number, position)
+            raise OSError(
+                error.errno, f"{error.strerror}; what was graded before is kept", str(self._path)
+            ) from None
         return position
+
+    def _set_aside(self) -> None:
+        """Under the lock: whoever else grades here keeps the journal."""
+        if os.path.getsize(self._path):
+            names = (self._path.with_suffix(f".{n}.jsonl") for n in range(1, 10_000))
+            shutil.copyfile(self._path, next(name for name in names if not name.exists()))
+            self._file.truncate(0)
 
 
 def _points(before: dict, now: dict) -> str:
@@ -174,10 +191,3 @@ def seed_of(path: Path) -> int | None:
             return json.loads(file.readline()).get("seed")
     except (OSError, ValueError, AttributeError):
         return None
-
-
-def set_aside(path: Path) -> None:
-    """Keep an old journal under a name of its own, so that a new one can begin."""
-    if path.exists():
-        number = next(n for n in range(1, 10_000) if not path.with_suffix(f".{n}.jsonl").exists())
-        path.rename(path.with_suffix(f".{number}.jsonl"))

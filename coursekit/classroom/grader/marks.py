@@ -25,6 +25,7 @@ class Mark:
     note: str = ""  # what the instructor decided
     kind: str = ""  # of the verdict
     step: str = ""
+    said: str = ""  # the text without its details
     line: str = ""  # where to look, by the search in the student's own code
 
 
@@ -112,7 +113,7 @@ def _notebook(student: str, unit: str, course: Course, record: dict, decisions: 
 def _mark(student: str, exercise, row: dict | None, course: Course, decisions: Decisions) -> Mark:
     of = whole(course.weights.get(exercise.name, exercise.points))
     text, note, points = "", "", None
-    more = {key: str((row or {}).get(key, "")) for key in ("kind", "step", "line")}
+    more = {key: str((row or {}).get(key, "")) for key in ("kind", "step", "said", "line")}
     if row is not None:
         text, points = row["text"], of if row["points"] else 0
         if not points and row.get("follow_on") and decisions.follow_on:

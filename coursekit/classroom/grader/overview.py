@@ -47,10 +47,10 @@ class Item:
         """Why the exercise may be badly posed, '' if nothing speaks for it."""
         if self.upper is None or self.lower is None or self.handed_in < FEWEST:
             return ""
-        if self.upper < 0.25:
-            return "hardly anybody, not even of the best third, has it right: is it posed clearly?"
         if self.upper - self.lower < 0.1 and 0.1 < self.share < 0.9:
             return "the best third does no better here than the last: does it ask what it should?"
+        if self.upper < 0.25:
+            return "hardly anybody, not even of the best third, has it right: is it posed clearly?"
         return ""
 
 
@@ -109,8 +109,7 @@ def _mistakes(class_: list[Standing], item: Item) -> list[Mistake]:
 
 def named(mark: Mark) -> str:
     """The mistake without what differs from one student to the next."""
-    text = re.sub(r"\(.*", "", mark.text).strip() if mark.kind == "placed" else mark.text
-    return re.sub(r"\d+ of \d+", "some", text)[:200]
+    return re.sub(r"\d+ of \d+", "some", mark.said or mark.text)[:200]
 
 
 def needs_your_eye(class_: list[Standing]) -> Iterator[tuple[str, str]]:

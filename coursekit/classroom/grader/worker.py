@@ -30,6 +30,7 @@ from ..exercise import Exercise
 from ..verdict import Example, Verdict, verdict
 from . import cells, follow_on, locked
 from .box import BoxLost, Limits, bubblewrap
+from .clinic import SEARCHED, Clinic
 from .handed_out import handed_out
 from .locked import locked_files, write_files
 from .student import Student
@@ -54,10 +55,18 @@ def main() -> None:
 
 
 class _Libraries:
-    """Locked copies of the library, written once each."""
+    """Locked copies of the library, written once each, and the clinic's."""
 
     def __init__(self, folder: Path) -> None:
         self._folder, self._known = folder, dict[str, Path]()
+        self._clinics: dict[str, Clinic] = {}
+
+    def clinic(self, limits: Limits, program: str | None) -> Clinic:
+        """Where the lines are found that are wrong."""
+        key = f"{limits} {program}"
+        if key not in self._clinics:
+            self._clinics[key] = Clinic(self._folder, limits, program)
+        return self._clinics[key]
 
     def of(self, files: dict[str, str]) -> Path:
         key = f"{zlib.crc32(json.dumps(files, sort_keys=True).encode()):08x}"
@@ -93,10 +102,11 @@ def grade(job: dict, libraries: _Libraries) -> dict:
                 )
             except (BoxLost, ValueError) as error:
                 row["text"] = f"no answer: {error}"
+                row["kind"] = "missing" if "no such function" in str(error) else "lost"
                 continue
             found = verdict(exercise, examples, attempts)
             row |= {"text": _told(found), "points": exercise.points if found.right else 0}
-            row |= {"kind": found.kind, "step": found.step}
+            row |= {"kind": found.kind, "step": found.step, "said": found.say}
         for exercise, earlier in follow_on.candidates(course, job["unit"], result, sources):
             examples = _examples(course, exercise, job["seed"], job["unit"], arm)
             can = robots_can(course, job["unit"], examples)
@@ -105,11 +115,19 @@ def grade(job: dict, libraries: _Libraries) -> dict:
     finally:
         student.close()
     cpu = time.process_time() - before + student.cpu
+    searched = 0.0
+    if job["lines"]:
+        clinic = libraries.clinic(limits, student.program)
+        names = [e.name for e in exercises if not e.own and result[e.name].get("kind") in SEARCHED]
+        for name, line in clinic.lines(course, sources, names).items():
+            result[name]["line"] = line
+        searched, clinic.cpu = clinic.cpu, 0.0
     return {
         "exercises": result,
         "notes": notes + student.notes,
         "boxes": student.starts,
         "cpu": round(cpu, 2),
+        "cpu of lines": round(searched, 2),
     }
 
 

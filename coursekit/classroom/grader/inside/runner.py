@@ -1,14 +1,15 @@
 """Runs inside the box, and nowhere else: a student's cells, and the questions to their functions.
 
-It is a script of its own that imports nothing of coursekit: `runner.py [PACKAGES]`, beside the locked
-library, with the folder of numpy and its like. Requests come as JSON lines on stdin, one reply goes back
-for each. Whatever happens in here, the grader believes none of it: replies are read field by field,
-and an answer is right only if its numbers are. Students' code runs in names of its own, with small stand-ins
-for what only a notebook has; what it prints goes nowhere.
+It is a script of its own that imports nothing of coursekit: `runner.py locked|released [PACKAGES]`, beside
+the library of that kind, with the folder of numpy and its like. Requests come as JSON lines on stdin, one
+reply goes back for each. Whatever happens in here, the grader believes none of it: replies are read field by
+field, and an answer is right only if its numbers are. Students' code runs in names of its own, with small
+stand-ins for what only a notebook has; what it prints goes nowhere.
 """
 
 import builtins
 import copy
+import importlib
 import importlib.machinery
 import json
 import linecache
@@ -48,7 +49,14 @@ class Nothing:
 class StandIns:
     """Finds modules, of which every name is Nothing, for what only a notebook has or a person looks at."""
 
-    names = ("coursekit.view", "coursekit.classroom", "IPython", "ipywidgets", "anywidget", "meshcat")
+    names: tuple[str, ...] = (
+        "coursekit.view",
+        "coursekit.classroom",
+        "IPython",
+        "ipywidgets",
+        "anywidget",
+        "meshcat",
+    )
     real = ("coursekit.view.text",)  # prints numbers: notebooks use it everywhere
 
     def find_spec(
@@ -83,6 +91,21 @@ def drawn() -> dict[str, Callable]:
     except OSError:
         return {}
     return {"own_sheet": lambda: types.SimpleNamespace(**sheet), "own_seed": lambda: sheet["seed"]}
+
+
+def open_the_classroom() -> None:
+    """Where the released library is, `diagnose` works, and the notebook's own checks do nothing."""
+    StandIns.names = tuple(name for name in StandIns.names if name != "coursekit.classroom")
+    os.chdir(os.path.join(LIBRARY, "notebooks"))
+    classroom = importlib.import_module("coursekit.classroom")
+    classroom.__dict__["check"] = Nothing()
+
+
+def diagnose(request: dict, space: dict) -> dict:
+    """The first line of what `check` would say of a function; only where the library is the released one."""
+    classroom = importlib.import_module("coursekit.classroom")
+    name = request["diagnose"]
+    return {"said": classroom.diagnose(name, space[name]).text.partition("\n")[0]}
 
 
 class Late(BaseException):
@@ -193,7 +216,7 @@ def numbers(value: Any) -> dict:
     return {"shape": list(array.shape), "values": [repr(float(x)) for x in array.ravel()]}
 
 
-DOES = {"run": run, "replace": replace, "ask": ask}
+DOES = {"run": run, "replace": replace, "ask": ask, "diagnose": diagnose}
 
 
 def main() -> None:
@@ -202,11 +225,14 @@ def main() -> None:
     nowhere = os.open(os.devnull, os.O_RDWR)
     for descriptor in (0, 1, 2):
         os.dup2(nowhere, descriptor)
-    sys.path[:0] = [LIBRARY, *sys.argv[1:]]
+    sys.path[:0] = [LIBRARY, *sys.argv[2:]]
+    released = sys.argv[1] == "released"
     kernel = os.path.join(os.environ["HOME"], "kernel")
     os.makedirs(kernel, exist_ok=True)
     sys.argv = ["ipykernel_launcher.py", "-f", f"{kernel}/kernel.json"]  # as in a notebook
     sys.meta_path.insert(0, StandIns())
+    if released:
+        open_the_classroom()
     builtins.__dict__.update(get_ipython=Nothing(), display=Nothing())
     main_module = types.ModuleType("__main__")
     sys.modules["__main__"] = main_module
