@@ -172,6 +172,48 @@ def interpolations(t: ArrayLike, ways: Mapping[str, np.ndarray]) -> None:
     show()
 
 
+def walk(axes: ArrayLike, steps: ArrayLike) -> None:
+    """An arm at zero from the side: the step to each joint and to the tool, and the axis at each joint.
+
+    axes (n, 3): unit vectors along x, y or z; steps (n + 1, 3) in metres, in the plane of x and z.
+    """
+    import matplotlib.pyplot as plt
+
+    _, ax = plt.subplots(figsize=(5.6, 4.2), layout="constrained")
+    steps = np.asarray(steps, float)
+    ends = np.cumsum(steps, axis=0)[:, [0, 2]]
+    names = ["01", *(f"{i}{i + 1}" for i in range(1, len(axes))), f"{len(axes)}T"]
+    for step, end, name in zip(steps, ends, names, strict=True):
+        if not np.any(step):
+            continue
+        start = end - step[[0, 2]]
+        ax.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "lw": 3, "color": palette("trace")})
+        parts = [f"{1000 * length:g} {letter}" for length, letter in zip(step, "xyz", strict=True) if length]
+        label = f"$P_{{{name}}}$ = {' + '.join(parts)}"
+        upright, short = abs(step[2]) > abs(step[0]), np.linalg.norm(step) < 0.2
+        place = end + [0.03, 0.05] if short else (start + end) / 2 + ([0.03, 0] if upright else [0, 0.06])
+        side = "left" if short or upright else "center"
+        ax.text(*place, label, color=palette("trace"), ha=side, va="center")
+    at: dict[tuple, list[str]] = {}
+    for i, (axis, end) in enumerate(zip(axes, ends[:-1], strict=True), 1):
+        at.setdefault(tuple(end.round(6)), []).append(f"$h_{i}$ = {'xyz'[int(np.argmax(np.abs(axis)))]}")
+    for place, here in at.items():
+        ax.plot(*place, "o", ms=9, mfc="w", mec=palette("bone"), mew=2, zorder=3)
+        below = place[0] > 0.01
+        shift = (0, -0.06) if below else (-0.03, 0)
+        ax.text(
+            *np.add(place, shift),
+            "\n".join(here),
+            ha="center" if below else "right",
+            va="top" if below else "center",
+        )
+    ax.plot(*ends[-1], "s", ms=7, color=palette("accent"))
+    ax.text(*(ends[-1] + [0.02, 0]), "T", color=palette("accent"), va="center")
+    ax.set(xlabel="x [m]", ylabel="z [m]", aspect="equal", xlim=(-0.25, 0.9), ylim=(-0.05, 1.02))
+    ax.grid(alpha=0.25)
+    show()
+
+
 def errors(s: ArrayLike, curves: Mapping[str, ArrayLike]) -> None:
     """Distance from the tool to its point of the path, in metres, for several forward kinematics."""
     import matplotlib.pyplot as plt
