@@ -3,7 +3,7 @@
 Every function shows one figure and returns None. s is the distance along the path in metres.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -172,7 +172,7 @@ def interpolations(t: ArrayLike, ways: Mapping[str, np.ndarray]) -> None:
     show()
 
 
-def walk(axes: ArrayLike, steps: ArrayLike) -> None:
+def walk(axes: Sequence[np.ndarray], steps: Sequence[np.ndarray]) -> None:
     """An arm at zero from the side: the step to each joint and to the tool, and the axis at each joint.
 
     axes (n, 3): unit vectors along x, y or z; steps (n + 1, 3) in metres, in the plane of x and z.
@@ -180,7 +180,6 @@ def walk(axes: ArrayLike, steps: ArrayLike) -> None:
     import matplotlib.pyplot as plt
 
     _, ax = plt.subplots(figsize=(5.6, 4.2), layout="constrained")
-    steps = np.asarray(steps, float)
     ends = np.cumsum(steps, axis=0)[:, [0, 2]]
     names = ["01", *(f"{i}{i + 1}" for i in range(1, len(axes))), f"{len(axes)}T"]
     for step, end, name in zip(steps, ends, names, strict=True):
@@ -193,22 +192,19 @@ def walk(axes: ArrayLike, steps: ArrayLike) -> None:
         upright, short = abs(step[2]) > abs(step[0]), np.linalg.norm(step) < 0.2
         place = end + [0.03, 0.05] if short else (start + end) / 2 + ([0.03, 0] if upright else [0, 0.06])
         side = "left" if short or upright else "center"
-        ax.text(*place, label, color=palette("trace"), ha=side, va="center")
+        ax.text(place[0], place[1], label, color=palette("trace"), ha=side, va="center")
     at: dict[tuple, list[str]] = {}
     for i, (axis, end) in enumerate(zip(axes, ends[:-1], strict=True), 1):
         at.setdefault(tuple(end.round(6)), []).append(f"$h_{i}$ = {'xyz'[int(np.argmax(np.abs(axis)))]}")
-    for place, here in at.items():
-        ax.plot(*place, "o", ms=9, mfc="w", mec=palette("bone"), mew=2, zorder=3)
-        below = place[0] > 0.01
-        shift = (0, -0.06) if below else (-0.03, 0)
-        ax.text(
-            *np.add(place, shift),
-            "\n".join(here),
-            ha="center" if below else "right",
-            va="top" if below else "center",
-        )
-    ax.plot(*ends[-1], "s", ms=7, color=palette("accent"))
-    ax.text(*(ends[-1] + [0.02, 0]), "T", color=palette("accent"), va="center")
+    for (x, z), here in at.items():
+        ax.plot(x, z, "o", ms=9, mfc="w", mec=palette("bone"), mew=2, zorder=3)
+        if x > 0.01:
+            ax.text(x, z - 0.06, "\n".join(here), ha="center", va="top")
+        else:
+            ax.text(x - 0.03, z, "\n".join(here), ha="right", va="center")
+    x, z = ends[-1]
+    ax.plot(x, z, "s", ms=7, color=palette("accent"))
+    ax.text(x + 0.02, z, "T", color=palette("accent"), va="center")
     ax.set(xlabel="x [m]", ylabel="z [m]", aspect="equal", xlim=(-0.25, 0.9), ylim=(-0.05, 1.02))
     ax.grid(alpha=0.25)
     show()
