@@ -105,7 +105,8 @@ def draw_arm(ax: Axes, robot: Robot) -> None:
     page = 1000 * np.array([forward, [0, 0, 1]])
     joints, tool = robot.places @ page.T, page @ robot.M[:3, 3]
     column, elbow = (0.0, joints[1, 1]), (joints[2, 0], joints[4, 1])
-    side_view(ax, [(0, 0), column, joints[1], joints[2], elbow, joints[4], tool])
+    corners = [(0, 0), column, joints[1], joints[2], elbow, joints[4], tool]
+    side_view(ax, corners, margin=max(70.0, 0.11 * tool[1]))
     into = np.cross([0, 0, 1], forward)
     between = np.array([0.45 * elbow[0] + 0.55 * joints[4, 0], joints[4, 1]])
     where = {0: (0, 0.6 * column[1]), 3: between, 5: tool + [120, 0]}
