@@ -156,7 +156,7 @@ QUESTIONS = [
 
 GOALS = {
     "Read M off a drawing": ["home_pose", "home_and_screws"],
-    "Read screws off a drawing": ["screw_axis", "joint_screw", "abb_screw_4", "abb_screw_5"],
+    "Read screws off a drawing": ["screw_axis", "joint_screw", "abb_screw_4", "abb_screw_5", "lever"],
     "Read an axis back from its six numbers": ["axis_of", "where_is_the_axis", "pitch"],
     "Carry screws from one frame to another": ["adjoint", "body_screws", "from_another_frame"],
     "Name the frame of a list of screws": ["what_changes", "seen_from_the_tool"],

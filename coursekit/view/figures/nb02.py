@@ -10,8 +10,6 @@ from coursekit.kinematics.robot import Robot
 from coursekit.view.figures import INK, palette
 from coursekit.view.figures.side import INTO, OUT_OF, draw_arm, mark_axis, mark_frame, side_view
 
-TELESCOPE = (150, 600, 120, 700, 200)  # mm: A to E
-
 
 def drawing(robot: Robot) -> None:
     """Side view of an arm like the KR6 at zero with its lengths in mm."""
@@ -49,25 +47,26 @@ def steps(directions: Sequence[str], P_mm: ArrayLike) -> None:
     plt.show()
 
 
-def telescope_arm(lengths_mm: Sequence[float] = TELESCOPE) -> Robot:
-    """The arm of the drawing `telescope`: two hinges, a slide, two hinges; A to E in mm.
+def telescope_arm() -> Robot:
+    """The arm of the drawing `telescope`: two hinges, a slide, two hinges.
 
     >>> telescope_arm().joint_types[2]
     'prismatic'
     """
-    A, B, C, D, E = np.asarray(lengths_mm) / 1000
-    M = np.diag([1.0, -1, -1, 1])
-    M[:3, 3] = A + D, 0, B + C - E
-    points = [(0, 0, 0), (A, 0, B), (A, 0, B + C), (A + D, 0, B + C), (A + D, 0, B + C)]
-    axes = [(0, 0, 1), (0, -1, 0), (1, 0, 0), (1, 0, 0), (0, 1, 0)]
-    return Robot.from_axes(axes, points, M, joint_types="RRPRR", name="telescope")
+    S = np.zeros((6, 5))
+    S[[2, 1, 3, 0, 1], range(5)] = 1, -1, 1, 1, 1  # directions; joint 3 slides
+    S[:, 1] += 0, 0, 0, 0.6, 0, -0.15
+    S[4, 3] = 0.72
+    S[:, 4] += 0, 0, 0, -0.72, 0, 0.85
+    M = [(1, 0, 0, 0.85), (0, -1, 0, 0), (0, 0, -1, 0.52), (0, 0, 0, 1)]
+    return Robot.from_screws(S, M, joint_types="RRPRR", name="telescope")
 
 
-def telescope(lengths_mm: Sequence[float] = TELESCOPE) -> None:
+def telescope() -> None:
     """The arm with a slide whose M and S are to be read: its lengths A to E, five axes, both frames."""
     import matplotlib.pyplot as plt
 
-    A, B, C, D, E = lengths_mm
+    A, B, C, D, E = 150, 600, 120, 700, 200  # mm
     _, ax = plt.subplots(figsize=(8.2, 5.2), layout="constrained")
     corners = [(0, 0), (0, B), (A, B), (A, B + C), (A + D, B + C), (A + D, B + C - E)]
     side_view(ax, corners, [f"{name} = {x:g}" for name, x in zip("BACDE", (B, A, C, D, E), strict=True)])
