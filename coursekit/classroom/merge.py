@@ -51,14 +51,13 @@ def merge(mine: dict, new: dict) -> tuple[dict, Changes]:
 
     Cells are found by their id, exercises by their grade_id where the id is lost. Cells of one's own stay
     behind the cell they stood behind. Outputs stay where the code stays. In a notebook whose notes are lost,
-    only exercises and cells of one's own count as the student's.
+    every cell that differs may be the student's, and stays beside the release's.
     """
-    base = mark_of(mine).get("cells", {})
-    base = base if isinstance(base, dict) else {}
+    base, fresh = _noted(mine), _noted(new)
     changes, partners = Changes(), _partners(mine["cells"], new["cells"])
     pair_of = {id(old): number for number, old in partners.items()}
     merged: list[list[dict]] = [
-        _one(old, cell, base, changes) for old, cell in _pairs(partners, new["cells"])
+        _one(old, cell, base, fresh, changes) for old, cell in _pairs(partners, new["cells"])
     ]
     still = {key(cell) for cell in new["cells"]}
     front: list[dict] = []
@@ -66,10 +65,12 @@ def merge(mine: dict, new: dict) -> tuple[dict, Changes]:
     for cell in mine["cells"]:
         if id(cell) in pair_of:
             behind = merged[pair_of[id(cell)]]
-        elif key(cell) not in base or key(cell) in still:  # theirs, or a copy of a released one
+        elif (
+            base is None or key(cell) not in base or key(cell) in still
+        ):  # theirs, or a copy of a released one
             changes.own += 1
             behind.append(copy.deepcopy(cell))
-        elif is_solution(cell) and base[key(cell)] != digest(cell["source"]):
+        elif base[key(cell)] != digest(cell["source"]):
             changes.gone.append(f"{_name(cell)} (yours is kept)")
             behind.append(copy.deepcopy(cell))
         else:
@@ -111,19 +112,30 @@ def _same_text(old: dict, cell: dict) -> bool:
     return "id" not in old and (old["cell_type"], old["source"]) == (cell["cell_type"], cell["source"])
 
 
-def _one(old: dict | None, cell: dict, base: dict, changes: Changes) -> list[dict]:
+def _noted(notebook: dict) -> dict | None:
+    """{key: digest of what was released} of a notebook's cells; None if its notes are lost."""
+    cells = mark_of(notebook).get("cells")
+    return cells if isinstance(cells, dict) else None
+
+
+def _one(old: dict | None, cell: dict, base: dict | None, fresh: dict | None, changes: Changes) -> list[dict]:
     """What stands in place of a cell of the new release."""
     if old is None:
         changes.added.append(_name(cell))
         return [copy.deepcopy(cell)]
+    if fresh is not None and key(cell) not in fresh:  # undone: a cell of the student's own stands in both
+        return [copy.deepcopy(old)]
     now = copy.deepcopy({**cell, "metadata": {**old["metadata"], **cell["metadata"]}})
-    released = base.get(key(old), "") if base else digest((cell if is_solution(cell) else old)["source"])
+    if base is None and is_solution(cell):
+        released = digest(cell["source"])
+    else:
+        released = (base or {}).get(key(old), "")
     theirs = digest(old["source"]) != released  # written in by the student
     ours = digest(cell["source"]) != released  # changed by the release
     _compare_points(old, cell, changes)
     if theirs and (is_solution(cell) or not ours):
         changes.kept += digest(old["source"]) != digest(cell["source"])
-        if ours and base and is_solution(cell):
+        if ours and base is not None and is_solution(cell):
             changes.asked.append(_name(cell))
         now["source"] = old["source"]
     elif ours and old["source"].strip() != cell["source"].strip():

@@ -8,10 +8,13 @@ import shutil
 import zipfile
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from coursekit.__main__ import main
 from coursekit.classroom import document, update
 from coursekit.classroom.author import new, release
+from coursekit.classroom.merge import merge
 from coursekit.classroom.your_course import read
 
 NAME = "notebooks/01_first_arm.ipynb"
@@ -327,3 +330,91 @@ def test_the_commands(course, mine, tmp_path, capsys):
     assert main(["update", "--folder", str(mine)]) == 2
     assert main(["update", str(fresh), "--undo", "--folder", str(mine)]) == 2
     assert "name the corrected release" in capsys.readouterr().err
+
+
+# ---- whatever both sides do
+
+
+def released(names):
+    """A released notebook: text, code, an exercise for each name that begins with e."""
+    cells = []
+    for name in names:
+        role = {"nbgrader": {"grade_id": name, "solution": True}} if name.startswith("e") else {}
+        kind = "markdown" if name.startswith("t") else "code"
+        cells.append({"cell_type": kind, "id": name, "metadata": role, "source": f"released {name}"})
+        if kind == "code":
+            cells[-1] |= {"outputs": [], "execution_count": None}
+    return {"cells": cells, "metadata": {}, "nbformat": 4, "nbformat_minor": 5}
+
+
+NAMES = [f"{kind}{number}" for kind in "tce" for number in range(4)]
+EDITS = st.lists(st.tuples(st.sampled_from(["write", "add", "delete", "move", "copy"]), st.integers(0, 30)))
+
+
+def edited(notebook, edits):
+    """A student at work; returns what they wrote."""
+    wrote = []
+    for step, (what, where) in enumerate(edits):
+        cells = notebook["cells"]
+        if what == "add" or not cells:
+            text = f"own {step}"
+            cells.insert(
+                where % (len(cells) + 1),
+                {"cell_type": "raw", "id": f"x{step}", "metadata": {}, "source": text},
+            )
+            wrote.append(text)
+            continue
+        at = where % len(cells)
+        if what == "write":
+            if cells[at]["source"] in wrote:
+                wrote.remove(cells[at]["source"])
+            cells[at]["source"] = f"wrote {step}"
+            wrote.append(f"wrote {step}")
+        elif what == "delete":
+            gone = cells.pop(at)["source"]
+            if gone in wrote:
+                wrote.remove(gone)
+        elif what == "move":
+            cells.append(cells.pop(at))
+        else:
+            twin = {**copy.deepcopy(cells[at]), "id": f"y{step}"}
+            cells.insert(at, twin)
+            if twin["source"] in wrote:
+                wrote.append(twin["source"])
+    return wrote
+
+
+@given(
+    st.lists(st.sampled_from(NAMES), unique=True),
+    st.lists(st.sampled_from(NAMES), unique=True),
+    st.sets(st.sampled_from(NAMES)),
+    EDITS,
+    EDITS,
+    st.booleans(),
+)
+def test_nothing_that_a_student_wrote_is_ever_lost(before, after, corrected_, edits, later, forgetful):
+    """Not by an update, not by undoing it after more work; and what the release says is all there."""
+    mine, new = released(before), released(after)
+    for one in new["cells"]:
+        one["source"] += " corrected" * (one["id"] in corrected_)
+    document.stamp(mine, "1")
+    document.stamp(new, "2")
+    wrote = edited(mine, edits)
+    if forgetful:  # some editors drop what they do not know
+        del mine["metadata"]["coursekit"]
+    merged, _ = merge(mine, new)
+    sources = [c["source"] for c in merged["cells"]]
+    assert all(any(text in source for source in sources) for text in wrote)
+    ids = [c["id"] for c in merged["cells"]]
+    assert len(set(ids)) == len(ids)
+    for one in new["cells"]:
+        assert one["id"] in ids
+        if not document.is_solution(one) and one["id"] in corrected_:
+            assert one["source"] in sources
+    assert merge(merged, new)[0] == merged  # a second time changes nothing
+    wrote = edited(merged, later)
+    if forgetful:
+        del merged["metadata"]["coursekit"]
+    back, _ = merge(merged, mine)
+    sources = [c["source"] for c in back["cells"]]
+    assert all(any(text in source for source in sources) for text in wrote)

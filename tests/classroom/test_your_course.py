@@ -20,7 +20,8 @@ from coursekit.classroom.author import new, release, tables
 from coursekit.classroom.check import diagnose
 from coursekit.classroom.course import course_at, course_here, the_course
 from coursekit.classroom.your_course import read
-from tests.classroom.small import records
+from coursekit.commands import COMMANDS
+from tests.classroom.small import ROOT, records
 
 STEM = "01_first_arm"
 SOLUTION = "elbow = lengths[0] * np.array([np.cos(first), np.sin(first)])"  # a line of it
@@ -619,3 +620,17 @@ def test_the_pages_of_a_split_course_hold_no_solution(split, tmp_path):
     pages = list((tmp_path / "site").rglob("*.html"))
     assert any("Where is the tip?" in page.read_text("utf-8") for page in pages)
     assert not leaks(tmp_path / "site")
+
+
+def test_the_page_for_instructors_names_what_there_is(folder):
+    page = (ROOT / ".github" / "INSTRUCTORS.md").read_text("utf-8")
+    assert set(re.findall(r"bin/coursekit (\w+)", page)) <= set(COMMANDS)
+    (text,) = re.findall(r"```toml\n(.*?)```", page, re.S)
+    shutil.copy(folder / f"{STEM}.ipynb", folder / "01_gripper.ipynb")
+    (folder / "images").mkdir()
+    (folder / "course.toml").write_text(text)
+    course = read(folder)
+    assert course.units == ["nb02", "01_gripper", "nb04"] and course.weights == {"grip": 4}
+    for options in re.findall(r"`?--(\w+)", page):
+        known = [flag for command in COMMANDS.values() for flags, _ in command.arguments for flag in flags]
+        assert f"--{options}" in [*known, "--course", "--help"]
