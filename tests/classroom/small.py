@@ -30,7 +30,7 @@ def grade_small(submissions: Path, out: Path, **options) -> str:
 
 def records(out: Path) -> list[dict]:
     lines = map(json.loads, (out / "journal.jsonl").read_text().splitlines()[1:])
-    return [line for line in lines if "student" in line]
+    return [line for line in lines if "exercises" in line]
 
 
 def points(record: dict) -> tuple:

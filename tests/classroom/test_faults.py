@@ -117,7 +117,7 @@ signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000))
 journal = Journal(Path(sys.argv[1]), {"seed": 1})
 for number in range(100):
-    journal.add({"student": str(number), "unit": "nb01", "digest": "d", "text": "x" * 200})
+    journal.add({"student": str(number), "unit": "nb01", "digest": "d", "exercises": {}, "text": "x" * 200})
 """
     path = tmp_path / "journal.jsonl"
     done = subprocess.run([sys.executable, "-c", script, path], capture_output=True, text=True, cwd=ROOT)
@@ -183,7 +183,7 @@ def test_a_second_grader_is_refused_and_sets_nothing_aside(class_of_eight):
 def test_a_torn_journal_is_mended_or_told_with_file_and_line(tmp_path, harm, text):
     path = tmp_path / "journal.jsonl"
     journal = Journal(path, {"seed": 1})
-    journal.add({"student": "ann", "unit": "nb01", "digest": "d"})
+    journal.add({"student": "ann", "unit": "nb01", "digest": "d", "exercises": {}})
     journal.close()
     with open(path, "ab") as file:
         file.write(harm)

@@ -247,6 +247,35 @@ def test_decisions_outlive_a_regrade_and_weeks_add_up(tmp_path, solved):
 
 @pytest.mark.box
 @needs_box
+def test_the_line_that_is_wrong_is_searched_after_the_grades(tmp_path, solved):
+    """Advice only: it changes no points, and a second run does not search again."""
+    document = json.loads(json.dumps(solved))
+    wrong = """
+def fk(theta, l1, l2):
+    a, b = theta
+    x = l1 * np.cos(a) + l2 * np.cos(a + b)
+    y = l1 * np.sin(a) + l2 * np.sin(a + a)
+    return np.array([x, y])
+"""
+    document["cells"].append({"cell_type": "code", "metadata": {}, "source": wrong})
+    hand_in(tmp_path / "in", "ann", document)
+    grade_small(tmp_path / "in", tmp_path / "without", lines=False)
+    for _ in range(2):
+        grade_small(tmp_path / "in", tmp_path / "out")
+    lines = (tmp_path / "out" / "journal.jsonl").read_text("utf-8").splitlines()
+    (searched,) = [one for one in map(json.loads, lines) if "lines" in one]
+    assert "line 4" in searched["lines"]["fk"]
+    page = (tmp_path / "out" / "ann.html").read_text("utf-8")
+    assert "In your code: look at line 4" in page
+    assert "look at line 4" in (tmp_path / "out" / "class.html").read_text("utf-8")
+    tables = [
+        (tmp_path / out / "grades.csv").read_text("utf-8-sig").splitlines()[0] for out in ("out", "without")
+    ]
+    assert tables[0] == tables[1]
+
+
+@pytest.mark.box
+@needs_box
 def test_a_notebook_whose_exercises_changed_is_graded_anew_alone(tmp_path, solved):
     shutil.copytree(HERE / "course", tmp_path / "course")
     course = Course(tmp_path / "course" / "notebooks", tmp_path / "course")

@@ -27,6 +27,7 @@ from ..author import notebook
 from ..course import Course, the_course
 from . import decisions, pool, worker
 from .box import Limits, bubblewrap
+from .clinic import SEARCHED
 from .desk import Desk
 from .journal import Journal, seed_of
 from .submissions import Submissions, digest
@@ -94,7 +95,7 @@ def grade_class(
     if seed is None:
         seed = None if regrade is True else seed_of(path)
         seed = secrets.randbits(48) if seed is None else seed
-    make = Jobs(course, units, seed=seed, box=box, limits=limits, lines=lines)
+    make = Jobs(course, units, seed=seed, box=box, limits=limits)
     run = {"seed": seed, "box": box, "limits": asdict(limits), **course_digests(course, units)}
     run["points"] = {e.name: e.points for unit in units for e in course.exercises(unit)}
     with contextlib.ExitStack() as stack:
@@ -131,7 +132,17 @@ def grade_class(
                 journal.add(record)
                 bar.update()
                 desk.look()
-        return desk.write()
+        said = desk.write()  # the grades are there; advice may take as long again
+        if lines and (unclear := [x for x in everything if _is_unclear(x, journal, handed_in)]):
+            bar = _progress(len(unclear), 0, progress, "lines of wrong answers")
+            with contextlib.closing(bar):
+                searches = (make.search(handed_in, *x, journal.record(*x)) for x in unclear)
+                for record in run_all(executor, searches, ahead):
+                    if not record.get("failed"):
+                        journal.add_lines(record)
+                    bar.update()
+            said = desk.write()
+        return said
 
 
 def _stems(course: Course, units: list[str]) -> dict[str, str]:
@@ -149,6 +160,14 @@ def _is_due(which: tuple[str, str], journal: Journal, handed_in: Submissions) ->
     if data is None and journal.has_grade(*which):
         return False  # it was handed in and graded earlier
     return not journal.holds(*which, digest(data))
+
+
+def _is_unclear(which: tuple[str, str], journal: Journal, handed_in: Submissions) -> bool:
+    """Is there a wrong answer of which only a search can say what is wrong?"""
+    data, record = handed_in.data(*which), journal.record(*which)
+    if data is None or record is None or journal.is_searched(*which, digest(data)):
+        return False
+    return any(row.get("kind") in SEARCHED for row in record["exercises"].values())
 
 
 def course_digests(course: Course, units: list[str]) -> dict[str, str]:
@@ -169,17 +188,21 @@ def course_digests(course: Course, units: list[str]) -> dict[str, str]:
 class Jobs:
     """Jobs are plain data: all a worker needs beside an installed coursekit, on this machine or another."""
 
-    def __init__(
-        self, course: Course, units: list[str], *, seed: int, box: bool, limits: Limits, lines: bool = True
-    ) -> None:
+    def __init__(self, course: Course, units: list[str], *, seed: int, box: bool, limits: Limits) -> None:
         place = None if course == the_course() else course.place
-        self._common = {"course": place, "seed": seed, "box": box, "limits": asdict(limits), "lines": lines}
+        self._common = {"course": place, "seed": seed, "box": box, "limits": asdict(limits)}
         self._course, self._units = course, units
         self._libraries = {unit: worker.library(course, unit, seed) for unit in units}
 
     def job(self, handed_in: Submissions, student: str, unit: str) -> dict:
         when = handed_in.time(student, unit)
         return self._job(student, unit, handed_in.data(student, unit), handed_in.note(student, unit), when)
+
+    def search(self, handed_in: Submissions, student: str, unit: str, record: dict | None) -> dict:
+        """A job that asks for no points, but for the lines of what is wrong and unclear."""
+        rows = (record or {}).get("exercises", {}).items()
+        names = [name for name, row in rows if row.get("kind") in SEARCHED]
+        return {**self.job(handed_in, student, unit), "search": names}
 
     def canaries(self) -> Iterator[dict]:
         """The solved notebooks and the untouched ones, graded as if they were handed in."""
@@ -275,7 +298,7 @@ def _canaries(records: Iterator[dict]) -> None:
             )
 
 
-def _progress(total: int, done: int, show: bool):
+def _progress(total: int, done: int, show: bool, what: str = ""):
     from tqdm import tqdm
 
-    return tqdm(total=total, initial=done, unit="notebook", disable=not show)
+    return tqdm(total=total, initial=done, unit="notebook", disable=not show, desc=what or None)

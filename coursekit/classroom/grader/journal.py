@@ -24,6 +24,7 @@ class Journal:
         self._file = open(path, "a+b")  # noqa: SIM115 - close() closes it
         self.proved: set[str] = set()  # set-ups that passed their canaries in this run
         self._graded: set[tuple[str, str]] = set()
+        self._lines: dict[tuple[str, str, str], dict[str, str]] = {}  # {(student, unit, digest): advice}
         self._where: dict[tuple[str, str], tuple[int, str | None]] = {}
         try:
             self._lock()
@@ -103,9 +104,24 @@ class Journal:
         for key, (position, _) in self._where.items():
             if key[0] in students or key[1] in units:
                 self._where[key] = (position, None)
+        for one in [one for one in self._lines if one[1] in units]:
+            del self._lines[one]
 
     def add(self, record: dict) -> None:
         self._note(record, self._append(record))
+
+    def is_searched(self, student: str, unit: str, digest: str) -> bool:
+        """Is this very submission searched for the lines that are wrong?"""
+        return (student, unit, digest) in self._lines
+
+    def add_lines(self, record: dict) -> None:
+        """Note which lines are wrong; grades do not depend on it."""
+        self._append(record)
+        self._note_lines(record)
+
+    def _note_lines(self, record: dict) -> None:
+        lines = record["lines"] if isinstance(record["lines"], dict) else {}
+        self._lines[record["student"], record["unit"], record.get("digest", "")] = lines
 
     def prove(self, set_up: str) -> None:
         """Note that right was right and nothing was nothing with this set-up."""
@@ -119,6 +135,9 @@ class Journal:
         position, _ = self._where[student, unit]
         self._file.seek(position)
         record = self._parsed(self._file.readline(), 0)
+        for name, line in self._lines.get((student, unit, record.get("digest", "")), {}).items():
+            if name in record.get("exercises", {}):
+                record["exercises"][name]["line"] = line
         if (record.get("student"), record.get("unit")) != (student, unit):
             raise ValueError(
                 f"{self._path} was changed by somebody else: no record of {student}, {unit} is there"
@@ -140,7 +159,9 @@ class Journal:
             elif isinstance(record.get("run"), dict) and isinstance(record.get("anew"), list):
                 self._head = record["run"]
                 self.forget(units=record["anew"])
-            elif {"student", "unit"} <= record.keys():
+            elif {"student", "unit", "lines"} <= record.keys():
+                self._note_lines(record)
+            elif {"student", "unit", "exercises"} <= record.keys():
                 self._note(record, position)
             else:
                 self._parsed(b"", number)

@@ -30,7 +30,7 @@ from ..exercise import Exercise
 from ..verdict import Example, Verdict, verdict
 from . import cells, follow_on, locked
 from .box import BoxLost, Limits, bubblewrap
-from .clinic import SEARCHED, Clinic
+from .clinic import Clinic
 from .handed_out import handed_out
 from .locked import locked_files, write_files
 from .student import Student
@@ -88,6 +88,8 @@ def grade(job: dict, libraries: _Libraries) -> dict:
     except ValueError as error:
         unreadable = {name: {**row, "text": str(error)} for name, row in result.items()}
         return {"exercises": unreadable, "notes": [str(error)]}
+    if job.get("search"):
+        return _searched(job, course, limits, sources, libraries)
     arm, notes = handed_out(data, job["student"], course)
     before = time.process_time()
     library = libraries.of({**job["library"], **_drawn(exercises, arm)})
@@ -115,19 +117,11 @@ def grade(job: dict, libraries: _Libraries) -> dict:
     finally:
         student.close()
     cpu = time.process_time() - before + student.cpu
-    searched = 0.0
-    if job["lines"]:
-        clinic = libraries.clinic(limits, student.program)
-        names = [e.name for e in exercises if not e.own and result[e.name].get("kind") in SEARCHED]
-        for name, line in clinic.lines(course, sources, names).items():
-            result[name]["line"] = line
-        searched, clinic.cpu = clinic.cpu, 0.0
     return {
         "exercises": result,
         "notes": notes + student.notes,
         "boxes": student.starts,
         "cpu": round(cpu, 2),
-        "cpu of lines": round(searched, 2),
     }
 
 
@@ -135,6 +129,15 @@ def _drawn(exercises: list[Exercise], arm: int) -> dict[str, str]:
     """The sheet of the student's arm, for the box, where an exercise asks for it."""
     asked = any(exercise.own for exercise in exercises)
     return {"own.json": json.dumps(asdict(own.sheet_of(arm)))} if asked else {}
+
+
+def _searched(job: dict, course: Course, limits: Limits, sources: list[str], libraries: _Libraries) -> dict:
+    """The lines of some exercises: advice, and no points."""
+    clinic = libraries.clinic(limits, bubblewrap() if job["box"] else None)
+    names = [e.name for e in course.exercises(job["unit"]) if e.name in job["search"] and not e.own]
+    before, clinic.cpu = time.process_time(), 0.0
+    lines = clinic.lines(course, sources, names)
+    return {"lines": lines, "cpu": round(time.process_time() - before + clinic.cpu, 2)}
 
 
 def _order(exercises: list[Exercise]) -> list[Exercise]:
