@@ -146,6 +146,27 @@ QUESTIONS = [
         },
     ),
     Question(
+        name="other_wrist",
+        draw=lambda rng: dict(
+            zip(
+                ("outer", "inner"),
+                [("z", "y"), ("z", "x"), ("y", "x"), ("y", "z")][rng.integers(4)],
+                strict=True,
+            )
+        ),
+        text="A wrist turns about {outer}, then {inner}, then {outer} again: R = R{outer}(a) "
+        "R{inner}(b) R{outer}(c). Which row and column of R hold all you need? "
+        "(a) the first (b) the second (c) the third (d) none",
+        answer=lambda outer, inner: {"y": "b", "z": "c"}[outer],
+        slips={
+            "That is the axis in the middle: look where cos b stands alone.": lambda outer, inner: {
+                "x": "a",
+                "y": "b",
+                "z": "c",
+            }[inner],
+        },
+    ),
+    Question(
         name="farthest",
         draw=lambda rng: {
             "a2": int(rng.choice([400, 500])),
@@ -167,6 +188,7 @@ GOALS = {
     "solve the triangle and the rotation": [
         "triangle_by_hand",
         "wrist_by_hand",
+        "other_wrist",
         "elbow_solutions",
         "wrist_angles",
     ],
