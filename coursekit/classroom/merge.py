@@ -39,7 +39,7 @@ class Changes:
             *_line("asked otherwise now, what you wrote is kept: look whether it fits", self.asked),
             *self.points,
         ]
-        return [*told, self.of_yours] if told else []
+        return [*told, self.of_yours] if told and self.kept + self.own else told
 
     @property
     def of_yours(self) -> str:

@@ -180,7 +180,8 @@ def _planned(
             contents[name] = None
     others = [name for name in contents if not name.endswith(".ipynb") and name != RELEASE]
     if others:
-        told.append(f"{len(others)} other files replaced: exercises, checks, the library")
+        files = "1 other file" if len(others) == 1 else f"{len(others)} other files"
+        told.append(f"{files} replaced: exercises, checks, the library")
     if "environment.txt" in contents:
         told.append("other versions of the libraries are needed: paste the first command of README.md again")
     return contents, told
