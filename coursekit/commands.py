@@ -41,6 +41,18 @@ def _course(options: Namespace) -> Course:
     return course_at([str(options.course)]) if options.course else course_here()
 
 
+def _course_of(options: Namespace, handed_in: Path) -> Course:
+    """The same for commands that read what students hand in: a course.toml among it is not believed."""
+    course = _course(options)
+    toml = course.notebooks / "course.toml"
+    if not options.course and toml.exists() and toml.resolve().is_relative_to(handed_in.resolve()):
+        raise ValueError(
+            f"{toml} lies among what was handed in, and is not used: run this "
+            "from another folder, or name your course with --course"
+        )
+    return course
+
+
 def _lab(options: Namespace) -> None:
     from .classroom import lab
 
@@ -77,14 +89,14 @@ def _new(options: Namespace) -> None:
 def _collect(options: Namespace) -> None:
     from .classroom.grader import collect
 
-    print(collect.collect(options.source, options.out, options.roster, _course(options)))
+    print(collect.collect(options.source, options.out, options.roster, _course_of(options, options.source)))
 
 
 def _grade(options: Namespace) -> None:
     from .classroom.author.verify import verify
     from .classroom.grader import grade
 
-    course = _course(options)
+    course = _course_of(options, options.submissions)
     verify(course)
     summary = grade.grade_class(
         options.submissions,
@@ -105,8 +117,9 @@ def _grade(options: Namespace) -> None:
 def _viva(options: Namespace) -> None:
     from .classroom.grader.viva import viva
 
+    course = _course_of(options, options.submissions)
     sheet, answers = viva(
-        options.student, options.submissions, options.out, _course(options), options.exercise, options.seed
+        options.student, options.submissions, options.out, course, options.exercise, options.seed
     )
     print(f"wrote {sheet}, to lay on the table, and {answers}, for you alone")
 

@@ -634,3 +634,15 @@ def test_the_page_for_instructors_names_what_there_is(folder):
     for options in re.findall(r"`?--(\w+)", page):
         known = [flag for command in COMMANDS.values() for flags, _ in command.arguments for flag in flags]
         assert f"--{options}" in [*known, "--course", "--help"]
+
+
+@pytest.mark.parametrize("words", [["grade"], ["collect"], ["viva", "s1"]])
+def test_a_course_that_was_handed_in_is_not_believed(words, folder, tmp_path, monkeypatch, capsys):
+    """Who stands in a student's folder would else run the student's exercises on their own machine."""
+    bait = tmp_path / "in" / "s1"
+    shutil.copytree(folder, bait)
+    (bait / f"{STEM}_exercises.py").write_text(f"open({str(tmp_path / 'ran')!r}, 'w')")
+    monkeypatch.chdir(bait)
+    assert main([*words, str(tmp_path / "in"), str(tmp_path / "out")]) == 2
+    assert "lies among what was handed in, and is not used" in capsys.readouterr().err
+    assert not (tmp_path / "ran").exists() and not (tmp_path / "out").exists()
