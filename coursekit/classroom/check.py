@@ -38,10 +38,12 @@ class Diagnosis:
     kind : right; unwritten, error, misfit (it cannot be judged); library (right, but it calls what it should
            write); named (the mistake has a name, or a line); placed (what is right already, or by how much
            the rest misses); different (no more than that it is wrong)
+    say  : the shortest true sentence, the first of the text
     """
 
     kind: str
     text: str
+    say: str = ""
 
     @property
     def right(self) -> bool:
@@ -94,7 +96,7 @@ def diagnose(name: str, function: Callable) -> Diagnosis:
     'misfit'
     """
     work = _Work(name, function)
-    return Diagnosis(work.verdict.kind, work.text(function, "all"))
+    return Diagnosis(work.verdict.kind, work.text(function, "all"), work.verdict.say)
 
 
 def example(name: str, number: int) -> list:

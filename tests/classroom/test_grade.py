@@ -108,6 +108,9 @@ def test_files_without_folders_are_refused_with_what_to_do(tmp_path):
     (tmp_path / "in" / "ann_123_456_01_arm.ipynb").write_text("{}")
     with pytest.raises(ValueError, match="coursekit collect"):
         grade_small(tmp_path / "in", tmp_path / "out", box=False)
+    for wrong in ({"jobs": 0}, {"seed": -1}):
+        with pytest.raises(ValueError, match=r"--jobs is 1 or more, --seed 0 or more; (0|-1) came"):
+            grade_small(tmp_path / "in", tmp_path / "out", box=False, **wrong)
     with pytest.raises(ValueError, match="where the submissions are"):
         grade_small(tmp_path / "in", tmp_path / "in", box=False)
 

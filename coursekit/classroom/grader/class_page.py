@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import os
 from datetime import date
 from pathlib import Path
@@ -38,8 +39,8 @@ ul { margin: 0; padding-left: 1.1rem; } details summary { cursor: pointer; }
 a { color: inherit; }
 @media (max-width: 45rem) { .list thead { display: none; } .list tr, .list td { display: block; }
   .list tr { padding: .5rem 0; } .list td, .list td.n { padding: .05rem 0; text-align: left; } }
-@media print { body { max-width: none; font-size: 11px; } details > *:not(summary) { display: block; }
-               tr { break-inside: avoid; } .wide { overflow: visible; } }
+@media print { body { max-width: none; font-size: 11px; } tr { break-inside: avoid; }
+  .wide { overflow: visible; } details::details-content { display: block; content-visibility: visible; } }
 """
 PARTS = {
     "mistakes": "exercises and mistakes",
@@ -175,7 +176,7 @@ def _cells(one: Standing, found: list[Item]) -> str:
         mark = one.marks.get(item.name)
         kind, sign, word = MEANING[4] if mark is None or nb is None else _meaning(mark, nb)
         title = f"{item.name}: {(mark.note or mark.text) if mark else ''}".removesuffix(": ")
-        label = f"title='{text(title)}' aria-label='{word}'"
+        label = f"title='{html.escape(title)}' aria-label='{word}'"
         cells.append(f"<td class='{kind}' {label}>{sign}</td>")
     return "".join(cells)
 

@@ -81,6 +81,8 @@ def grade_class(
         raise ValueError(f"{submissions} is no folder of submissions")
     if out.resolve() == submissions.resolve():
         raise ValueError(f"grades cannot go into {out}, where the submissions are: name another folder")
+    if jobs < 1 or (seed is not None and seed < 0):
+        raise ValueError(f"--jobs is 1 or more, --seed 0 or more; {jobs if jobs < 1 else seed} came")
     if box and bubblewrap() is None:
         raise ValueError(
             "students' code runs in bubblewrap, which does not work here (Debian: apt install bubblewrap). "
@@ -198,6 +200,10 @@ class Jobs:
         when = handed_in.time(student, unit)
         return self._job(student, unit, handed_in.data(student, unit), handed_in.note(student, unit), when)
 
+    def from_bytes(self, student: str, unit: str, data: bytes) -> dict:
+        """A job for a notebook that lies in no folder."""
+        return self._job(student, unit, data, "")
+
     def search(self, handed_in: Submissions, student: str, unit: str, record: dict | None) -> dict:
         """A job that asks for no points, but for the lines of what is wrong and unclear."""
         rows = (record or {}).get("exercises", {}).items()
@@ -209,7 +215,7 @@ class Jobs:
         for unit in self._units:
             solved = notebook.read(self._course.notebook(unit))
             for student, document in (("solved", solved), ("untouched", notebook.student_version(solved))):
-                yield self._job(student, unit, json.dumps(document).encode(), "")
+                yield self.from_bytes(student, unit, json.dumps(document).encode())
 
     def _job(
         self, student: str, unit: str, data: bytes | None, note: str, when: tuple[str, bool] = ("", False)

@@ -10,6 +10,7 @@ from statistics import median
 
 from .marks import Mark, Notebook, Standing
 
+LONGEST = 220  # letters of a mistake's name
 FEWEST = 9  # handed-in answers below which no exercise is called badly posed
 NOT_WRITTEN = ("unwritten", "missing")
 
@@ -109,7 +110,8 @@ def _mistakes(class_: list[Standing], item: Item) -> list[Mistake]:
 
 def named(mark: Mark) -> str:
     """The mistake without what differs from one student to the next."""
-    return re.sub(r"\d+ of \d+", "some", mark.said or mark.text)[:200]
+    text = re.sub(r"\d+ of \d+", "some", mark.said or mark.text)
+    return text if len(text) <= LONGEST else text[: text.rfind(" ", 0, LONGEST)] + " …"
 
 
 def needs_your_eye(class_: list[Standing]) -> Iterator[tuple[str, str]]:

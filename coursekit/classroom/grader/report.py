@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import html
 import os
+import re
 import zlib
 from collections import Counter
 from collections.abc import Iterable
@@ -121,5 +122,5 @@ def _row(mark: Mark) -> str:
 
 
 def text(value: object) -> str:
-    """As it stands in a page: what students wrote stays text."""
-    return html.escape(str(value))
+    """As it stands in a page: what students wrote stays text; `names` in it look like code."""
+    return re.sub(r"`([^`]+)`", r"<code>\1</code>", html.escape(str(value)))

@@ -102,10 +102,10 @@ def open_the_classroom() -> None:
 
 
 def diagnose(request: dict, space: dict) -> dict:
-    """The first line of what `check` would say of a function; only where the library is the released one."""
+    """What `check` says of a function, in one sentence; only where the library is the released one."""
     classroom = importlib.import_module("coursekit.classroom")
     name = request["diagnose"]
-    return {"said": classroom.diagnose(name, space[name]).text.partition("\n")[0]}
+    return {"said": classroom.diagnose(name, space[name]).say}
 
 
 class Late(BaseException):
