@@ -117,3 +117,15 @@ def test_every_question_of_the_course_has_a_name_of_its_own_and_every_goal_its_p
     for module in modules:
         wanted = {name for goal in module.GOALS.values() for name in goal}
         assert wanted <= exercises | set(names), module.__name__
+
+
+def test_a_slip_is_never_the_answer():
+    """Or a right answer could not be told from a wrong one that has a sentence of its own."""
+    for one in question._questions():
+        for draw in range(1, 30):
+            asked = question.ask(one.name, draw)
+            right = one.answer(**asked.numbers)
+            for slip, wrong in one.slips.items():
+                value = wrong(**asked.numbers)
+                if not question._unlike(value, right):
+                    assert not question._agree(value, right, one.tolerance), (one.name, slip, asked.numbers)

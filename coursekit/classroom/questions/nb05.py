@@ -6,12 +6,18 @@ import numpy as np
 
 from coursekit.classroom.question import Question
 
+
+def _tenths(rng, low, high):
+    """A number with one decimal, low to high."""
+    return int(rng.integers(round(10 * low), round(10 * high) + 1)) / 10
+
+
 QUESTIONS = [
     Question(
         name="recall_lever",
         draw=lambda rng: {
-            "x": float(rng.choice([0.2, 0.3, 0.4])),
-            "z": float(rng.choice([0.5, 0.6, 0.7])),
+            "x": _tenths(rng, 0.2, 0.4),
+            "z": _tenths(rng, 0.5, 0.9),
         },
         text="From notebook 02. A joint axis along +y passes through ({x}, 0, {z}) m. Its screw is "
         "(0, 1, 0; v). What is v, as a list of three numbers, in metres?",
@@ -24,7 +30,16 @@ QUESTIONS = [
     Question(
         name="recall_rank",
         draw=lambda rng: {
-            "values": str(rng.choice(["1.9, 1.2, 0.8, 0.3, 0.04, 2e-14", "1.7, 1.1, 0.6, 0.2, 3e-13, 8e-14"]))
+            "values": str(
+                rng.choice(
+                    [
+                        "1.9, 1.2, 0.8, 0.3, 0.04, 2e-14",
+                        "1.7, 1.1, 0.6, 0.2, 3e-13, 8e-14",
+                        "2.3, 1.4, 0.9, 0.5, 0.08, 4e-13",
+                        "2.1, 1.6, 0.7, 0.03, 9e-14, 5e-14",
+                    ]
+                )
+            )
         },
         text="From notebook 04. The singular values of a 6 x 6 Jacobian are {values}. What is its rank?",
         answer=lambda values: 6 - values.count("e-"),
@@ -33,10 +48,10 @@ QUESTIONS = [
     Question(
         name="hinge_column",
         draw=lambda rng: {
-            "x": float(rng.choice([0.5, 0.6])),
-            "y": float(rng.choice([0.1, 0.2])),
-            "X": float(rng.choice([0.8, 0.9])),
-            "Y": float(rng.choice([0.4, 0.5])),
+            "x": _tenths(rng, 0.3, 0.6),
+            "y": _tenths(rng, 0.1, 0.3),
+            "X": _tenths(rng, 0.8, 1.1),
+            "Y": _tenths(rng, 0.4, 0.7),
         },
         text="A planar 3R. The axis of joint 2 (along +z) passes through ({x}, {y}, 0) m, the tool is at "
         "({X}, {Y}, 0) m. What is v in column 2, as a list of three numbers, in metres?",
@@ -70,8 +85,8 @@ QUESTIONS = [
     Question(
         name="body_column",
         draw=lambda rng: {
-            "l1": float(rng.choice([0.4, 0.5, 0.6])),
-            "l2": float(rng.choice([0.2, 0.3])),
+            "l1": _tenths(rng, 0.4, 0.8),
+            "l2": _tenths(rng, 0.2, 0.3),
             "theta": int(rng.choice([90, -90])),
         },
         text="A planar 2R with links of {l1} m and {l2} m stands at theta_2 = {theta} degrees. What is v in "
@@ -95,8 +110,8 @@ QUESTIONS = [
         draw=lambda rng: {
             "a": float(rng.choice([0.6, 0.8])),
             "b": float(rng.choice([0.28, 0.96])),
-            "x": float(rng.choice([0.1, 0.3])),
-            "y": float(rng.choice([-0.2, 0.7])),
+            "x": _tenths(rng, 0.1, 0.4),
+            "y": _tenths(rng, -0.5, -0.2),
         },
         text="T-dot T_o has the rows (0, -{a}, {b}, {x}), ({a}, 0, 0, {y}), (-{b}, 0, 0, 0), (0, 0, 0, 0). "
         "What is omega, as a list of three numbers?",
@@ -110,8 +125,8 @@ QUESTIONS = [
     Question(
         name="payload",
         draw=lambda rng: {
-            "m": float(rng.choice([2, 5, 10])),
-            "r": float(rng.choice([0.4, 0.6, 0.9])),
+            "m": int(rng.integers(2, 11)),
+            "r": _tenths(rng, 0.4, 0.9),
             "angle": int(rng.choice([30, 60])),
         },
         text="An arm of {r} m turns about a level axis and stands {angle} degrees above the level. It holds "
@@ -128,7 +143,7 @@ QUESTIONS = [
     ),
     Question(
         name="damping",
-        draw=lambda rng: {"e": float(rng.choice([0.4, 0.6, 1.0])), "step": float(rng.choice([0.5, 1.0]))},
+        draw=lambda rng: {"e": _tenths(rng, 0.3, 0.9), "step": _tenths(rng, 1.0, 1.4)},
         text="The error has length {e}. No step may be longer than {step} rad, whatever the singular values. "
         "What is the smallest k that promises this?",
         answer=lambda e, step: e / (2 * step),
@@ -136,10 +151,11 @@ QUESTIONS = [
             "1/(2k) is the largest factor: do not forget the 2.": lambda e, step: e / step,
             "The other way round: more damping, shorter steps.": lambda e, step: step / (2 * e),
         },
+        tolerance=0.003,
     ),
     Question(
         name="gain",
-        draw=lambda rng: {"sigma": float(rng.choice([0.5, 2.0, 4.0]))},
+        draw=lambda rng: {"sigma": _tenths(rng, 1.5, 4.0)},
         text="The largest singular value of J is {sigma}. Below which gain g does the transpose method "
         "converge near the target?",
         answer=lambda sigma: 2 / sigma**2,
@@ -149,22 +165,24 @@ QUESTIONS = [
                 1 / sigma**2
             ),
         },
+        tolerance=0.003,
     ),
     Question(
         name="test_slide",
         draw=lambda rng: {
-            "r": float(rng.choice([0.4, 0.5, 0.7])),
-            "rate": float(rng.choice([2, 3])),
-            "push": float(rng.choice([0.3, 0.5])),
+            "r": _tenths(rng, 0.4, 0.7),
+            "rate": int(rng.integers(2, 4)),
+            "push": _tenths(rng, 0.3, 0.6),
         },
         text="A hinge turns at {rate} rad/s, the tool is {r} m from its axis. A slide, square to that, "
         "pushes at {push} m/s. How fast is the tool, in m/s?",
         answer=lambda r, rate, push: float(np.hypot(r * rate, push)),
         slips={"The two velocities are square to each other.": lambda r, rate, push: r * rate + push},
+        tolerance=0.006,
     ),
     Question(
         name="test_half_axes",
-        draw=lambda rng: {"a": int(rng.choice([4, 9])), "b": int(rng.choice([16, 25]))},
+        draw=lambda rng: {"a": int(rng.choice([1, 4, 9])), "b": int(rng.choice([16, 25, 36, 49]))},
         text="The linear J J^T has the eigenvalues 0.0{a}, 0.{b} and 1. How fast is the tool in its slowest "
         "direction, in m/s, for joint rates of length 1?",
         answer=lambda a, b: np.sqrt(a) / 10,
@@ -173,18 +191,19 @@ QUESTIONS = [
     Question(
         name="test_power",
         draw=lambda rng: {
-            "f": float(rng.choice([20, 30])),
-            "v": float(rng.choice([0.2, 0.5])),
-            "rate": float(rng.choice([0.4, 0.8])),
+            "f": 5 * int(rng.integers(3, 9)),
+            "v": _tenths(rng, 0.2, 0.5),
+            "rate": _tenths(rng, 0.6, 0.9),
         },
         text="One joint alone turns at {rate} rad/s; the tool moves at {v} m/s and pushes along its motion "
         "with {f} N. What torque does the joint give, in N m?",
         answer=lambda f, v, rate: f * v / rate,
         slips={"The powers are equal: torque times rate is force times speed.": lambda f, v, rate: f * v},
+        tolerance=0.02,
     ),
     Question(
         name="test_left",
-        draw=lambda rng: {"sigma": float(rng.choice([0.1, 0.2])), "k": float(rng.choice([0.1, 0.2, 0.3]))},
+        draw=lambda rng: {"sigma": _tenths(rng, 0.1, 0.3), "k": _tenths(rng, 0.4, 0.7)},
         text="Damped least squares with k = {k}, along a direction with sigma = {sigma}. What share of the "
         "error is left after one step (of a linear arm)?",
         answer=lambda sigma, k: k**2 / (sigma**2 + k**2),
@@ -194,6 +213,7 @@ QUESTIONS = [
                 sigma / (sigma**2 + k**2)
             ),
         },
+        tolerance=0.003,
     ),
 ]
 

@@ -16,9 +16,9 @@ QUESTIONS = [
     Question(
         name="recall_place",
         draw=lambda rng: {
-            "x": float(rng.choice([0.2, 0.4])),
-            "y": float(rng.choice([0.1, 0.3])),
-            "px": float(rng.choice([0.5, 0.8])),
+            "x": int(rng.integers(1, 4)) / 10,
+            "y": int(rng.integers(1, 5)) / 10,
+            "px": int(rng.integers(5, 9)) / 10,
         },
         text="From notebook 01. T_sb turns by 90 degrees about z and shifts to ({x}, {y}, 0) m. A point lies "
         "at ({px}, 0, 0) m in {{b}}. Where is it in {{s}}, as a list of three numbers, in metres?",
@@ -30,11 +30,12 @@ QUESTIONS = [
     ),
     Question(
         name="recall_rate",
-        draw=lambda rng: {"r": float(rng.choice([0.4, 0.5, 0.8])), "v": float(rng.choice([0.2, 0.6]))},
+        draw=lambda rng: {"r": int(rng.integers(2, 9)) / 10, "v": int(rng.integers(1, 7)) / 10},
         text="From notebook 05. One hinge alone moves the tool, {r} m away from its axis, at {v} m/s. How "
         "fast does it turn, in rad/s?",
         answer=lambda r, v: v / r,
         slips={"Speed is rate times lever: divide.": lambda r, v: v * r},
+        tolerance=0.006,
     ),
     Question(
         name="projected",
@@ -53,9 +54,9 @@ QUESTIONS = [
     Question(
         name="component",
         draw=lambda rng: {
-            "w": float(rng.choice([0.4, 0.5, 0.8])),
-            "r13": float(rng.choice([0.2, 0.3])),
-            "r31": float(rng.choice([-0.6, -0.7])),
+            "w": int(rng.integers(4, 9)) / 10,
+            "r13": int(rng.integers(2, 5)) / 10,
+            "r31": -int(rng.integers(5, 8)) / 10,
         },
         text="A rotation has w = {w}, r13 = {r13} and r31 = {r31}. What is y of its quaternion?",
         answer=lambda w, r13, r31: (r13 - r31) / (4 * w),
@@ -64,6 +65,7 @@ QUESTIONS = [
             "The sum belongs to 4xz.": lambda w, r13, r31: (r13 + r31) / (4 * w),
             "Divide by 4w: the product stands there.": lambda w, r13, r31: r13 - r31,
         },
+        tolerance=0.003,
     ),
     Question(
         name="trace",
@@ -75,7 +77,7 @@ QUESTIONS = [
     ),
     Question(
         name="halfway",
-        draw=lambda rng: {"a": int(rng.choice([150, 160, 170])), "b": int(rng.choice([-150, -130, -110]))},
+        draw=lambda rng: {"a": 10 * int(rng.integers(14, 18)), "b": -10 * int(rng.integers(10, 16))},
         text="A tool turned by {a} degrees about z goes to {b} degrees about z on the short way. Where is it "
         "half way, in degrees from 0 to 360?",
         answer=lambda a, b: (a + b + 360) / 2,
@@ -90,9 +92,9 @@ QUESTIONS = [
     Question(
         name="one_step",
         draw=lambda rng: {
-            "step": int(rng.choice([10, 20])),
-            "one": float(rng.choice([0.02, 0.04])),
-            "two": float(rng.choice([0.05, 0.08])),
+            "step": 5 * int(rng.integers(2, 6)),
+            "one": int(rng.integers(3, 6)) / 100,
+            "two": int(rng.integers(6, 12)) / 100,
         },
         text="In a step of {step} mm joint 1 turns by {one} rad and joint 2 by -{two} rad. Joint 1 may turn "
         "at 1 rad/s, joint 2 at 4 rad/s. How fast may the tool go, in m/s?",
@@ -104,10 +106,11 @@ QUESTIONS = [
             "Each joint has its own bound.": lambda step, one, two: step / 1000 / two,
             "The step is in millimetres.": lambda step, one, two: step / max(one, two / 4),
         },
+        tolerance=0.006,
     ),
     Question(
         name="test_pitch",
-        draw=lambda rng: {"r": float(rng.choice([-0.5, 0.5]))},
+        draw=lambda rng: {"r": int(rng.choice([-1, 1])) * int(rng.integers(3, 9)) / 10},
         text="Test. r31 = {r}. What is the pitch, in degrees?",
         answer=lambda r: -np.degrees(np.arcsin(r)),
         slips={"The sign: r31 is minus the sine.": lambda r: np.degrees(np.arcsin(r))},
@@ -115,10 +118,11 @@ QUESTIONS = [
     ),
     Question(
         name="test_axis",
-        draw=lambda rng: {"x": float(rng.choice([0.3, 0.4])), "z": float(rng.choice([1.2, 1.1]))},
+        draw=lambda rng: {"x": int(rng.integers(3, 8)) / 10, "z": int(rng.integers(8, 14)) / 10},
         text="Test. beta = ({x}, 0, {z}) rad. By what angle does it turn, in rad?",
         answer=lambda x, z: float(np.hypot(x, z)),
         slips={"Its length is the angle, not the sum of its components.": lambda x, z: x + z},
+        tolerance=0.006,
     ),
     Question(
         name="test_limits",
@@ -134,7 +138,7 @@ QUESTIONS = [
     ),
     Question(
         name="test_bounds",
-        draw=lambda rng: {"v": float(rng.choice([0.2, 0.3])), "factor": int(rng.choice([3, 5]))},
+        draw=lambda rng: {"v": int(rng.integers(2, 7)) / 10, "factor": int(rng.integers(3, 6))},
         text="Test. At {v} m/s joint 6 just meets its bound; all others use at most half of theirs. Joint 6 "
         "is replaced by one {factor} times as quick. How fast may the tool go now at least, in m/s?",
         answer=lambda v, factor: 2 * v,
