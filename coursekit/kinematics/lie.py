@@ -117,6 +117,21 @@ def log3(R: ArrayLike) -> np.ndarray:
     return v * np.where(half_sine == 0, 2.0, 2 * np.arctan2(half_sine, w) / safe)
 
 
+def slerp(R_0: ArrayLike, R_1: ArrayLike, t: ArrayLike) -> np.ndarray:
+    """On the short way from one attitude to another, by one turn at constant speed: R_0 e^[t log(R_0^T R_1)].
+
+    R_0, R_1 (..., 3, 3), t (...) from 0 to 1 -> R (..., 3, 3). Half a turn apart there are two: that of
+    `log3` is taken. Source: Lynch & Park, section 9.2.1.
+
+    >>> half = slerp(np.eye(3), exp3([0, 0, 1.0]), 0.5)
+    >>> log3(half).round(12).tolist()
+    [0.0, 0.0, 0.5]
+    """
+    R_0, R_1 = checks.rotation(R_0, "R_0"), checks.rotation(R_1, "R_1")
+    left = log3(np.swapaxes(R_0, -1, -2) @ R_1)
+    return R_0 @ exp3(left * checks.array(t, (), "t")[..., None])
+
+
 def log6(T: ArrayLike) -> np.ndarray:
     """xi with exp6(xi) = T and |omega| <= pi. T (..., 4, 4) -> (..., 6) = (omega; v). Eqs. 3.90-3.92.
 

@@ -260,3 +260,19 @@ def test_an_angle_whose_square_is_nothing():
     """1e-170 rad: its square underflows, the vector itself does not."""
     w = np.array([0.0, 3e-170, 0.0])
     assert np.allclose(lie.log3(lie.exp3(w)) / 3e-170, [0, 1, 0])
+
+
+def test_slerp_turns_about_one_axis_at_constant_speed():
+    rng = np.random.default_rng(12)
+    R_0, R_1 = lie.exp3(rng.normal(size=(2, 6, 3)))
+    t = np.linspace(0, 1, 11)
+    way = lie.slerp(R_0[:, None], R_1[:, None], t)
+    np.testing.assert_allclose(way[:, [0, -1]], np.stack([R_0, R_1], axis=1), rtol=0, atol=1e-14)
+    turns = lie.log3(way[:, :-1].swapaxes(-1, -2) @ way[:, 1:])
+    np.testing.assert_allclose(turns, np.broadcast_to(turns[:, :1], turns.shape), rtol=0, atol=1e-14)
+    assert (10 * np.linalg.norm(turns[:, 0], axis=-1) <= np.pi + 1e-12).all()
+
+
+def test_slerp_refuses_what_is_no_rotation():
+    with pytest.raises(ValueError, match=r"R_1 is not in SO\(3\)"):
+        lie.slerp(np.eye(3), 2 * np.eye(3), 0.5)
