@@ -131,6 +131,19 @@ def test_damped_least_squares(opened):
     explorer.assert_arm_stands_at(start)
 
 
+def test_a_named_pose_beyond_the_limits(opened):
+    model = robots.kuka_kr10_report()
+    theta = [0, -np.pi / 6, -2.2829525304720546, 0, np.pi / 6, 0]  # the slider of joint 3 ends at -120 deg
+    line = f"view.explore_jacobians(robots.kuka_kr10_report(), poses={{'alignment as printed': {theta}}})"
+    explorer = opened("jacobians", model, line)
+    explorer.press("alignment as printed")
+    explorer.played_to_the_end(31)
+    np.testing.assert_allclose(explorer.sliders(6), theta, atol=1e-4)
+    explorer.assert_arm_stands_at(theta)
+    lengths = jacobians.ellipsoid(model.jacobian_geometric(theta), "linear").lengths
+    assert f"linear   half axes {text.row(lengths)} m/s" in explorer.words()
+
+
 def test_along_the_path(opened):
     abb = robots.abb_irb1200()
     explorer = opened("path", abb, "view.explore_path()")
