@@ -88,6 +88,7 @@ class Slider(Control):
     unit = traitlets.Unicode().tag(sync=True)
     digits = traitlets.Int().tag(sync=True)
     shape = traitlets.Int(0).tag(sync=True)  # counts changes of everything but the value
+    wide = traitlets.Int(0).tag(sync=True)  # letters for which the label leaves room
     _beyond = False  # whether a value outside min and max is taken as it is
 
     def __init__(
@@ -268,6 +269,7 @@ class Choice(Control):
 
     kind_name = "choice"
     value = traitlets.Unicode().tag(sync=True)
+    wide = traitlets.Int(0).tag(sync=True)  # as of a Slider
     options: traitlets.List = traitlets.List().tag(sync=True)
 
     def __init__(

@@ -1,10 +1,14 @@
-"""Where the parts of a panel stand: controls beside the picture, plots and tables under it."""
+"""Where the parts of a panel stand: controls beside the picture, plots and tables under it.
+
+How much room there is decides static/controls.css: where it is narrow, the picture stands above its controls,
+which then scroll by themselves, so that both are in sight.
+"""
 
 from collections.abc import Sequence
 
 import ipywidgets
 
-from coursekit.view.controls import Action, Control, Sliders, Toggle
+from coursekit.view.controls import Action, Choice, Control, Slider, Sliders, Toggle
 from coursekit.view.viewer import Viewer
 
 
@@ -19,17 +23,17 @@ def column(controls: Sequence[Control | Sliders], reset: Action) -> ipywidgets.W
             (switches if isinstance(control, Toggle | Action) else rows).append(control)
     for switch in (*switches, reset):
         switch.layout.width = "auto"
+    for kind in (Slider, Choice):  # what stands beside their labels begins and ends below each other
+        alike = [row for row in _all(rows) if isinstance(row, kind)]
+        for row in alike:
+            row.wide = max(len(other.label) for other in alike)
     flow = _flow("2px 14px", width="100%", align_items="stretch")
-    return ipywidgets.VBox(
-        [*rows, ipywidgets.Box([*switches, reset], layout=flow)],
-        layout=ipywidgets.Layout(flex="1 1 300px", min_width="260px", max_width="460px"),
-    )
+    return ipywidgets.VBox([*rows, ipywidgets.Box([*switches, reset], layout=flow)]).add_class("ck-column")
 
 
 def beside(column: ipywidgets.Widget | None, viewer: Viewer) -> ipywidgets.Widget:
-    """The controls beside the picture, above it where there is no room."""
-    viewer.layout.flex, viewer.layout.min_width = "4 1 420px", "300px"
-    return ipywidgets.Box([column, viewer] if column else [viewer], layout=_flow("12px"))
+    """The controls beside the picture, under it where there is no room."""
+    return ipywidgets.Box([column, viewer] if column else [viewer]).add_class("ck-top")
 
 
 def under(outputs: Sequence[ipywidgets.Widget]) -> list[ipywidgets.Widget]:
@@ -47,6 +51,13 @@ def close(widget: ipywidgets.Widget) -> None:
         if widget.has_trait(attribute):
             getattr(widget, attribute).close()
     ipywidgets.Widget.close(widget)
+
+
+def _all(widgets):
+    """Widgets and those that stand in them."""
+    for widget in widgets:
+        yield widget
+        yield from _all(getattr(widget, "children", ()))
 
 
 def _folded(sliders):

@@ -9,7 +9,7 @@ from coursekit.view.panel import Panel
 from coursekit.view.viewer import STATIC, Viewer, script
 
 _PAGE = (STATIC / "page.html").read_text(encoding="utf-8")
-_OF_A_SLIDER = ("label", "unit", "value", "min", "max", "step", "start", "limits", "digits")
+_OF_A_SLIDER = ("label", "unit", "value", "min", "max", "step", "start", "limits", "digits", "wide")
 _OF_A_VIEWER = ("labels", "ghosts", "moving", "camera", "views", "description", "quality", "height", "drive")
 _AND_ITS_MOTION = ("theta", "motion", "motion_texts", "frame")
 

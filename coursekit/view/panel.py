@@ -123,6 +123,7 @@ class Panel(ipywidgets.VBox):
         self.line = parts.TextLine("text")
         self.line.value = self._words(values)
         super().__init__(layout=ipywidgets.Layout(width="100%"))
+        self.add_class("ck-panel")
         self._reset_button = parts.Action("reset", act=self.reset)
         column = layout.column(controls, self._reset_button) if controls else None
         top = layout.beside(column, self.viewer)
@@ -301,6 +302,8 @@ class Panel(ipywidgets.VBox):
             widget.observe(self._answer, "touched")
         if widget.has_trait("live"):
             widget.observe(self._drag_ended, "live")
+        if widget.has_trait("dark"):
+            widget.observe(lambda _change: self.refresh(), "dark")
         if isinstance(widget, parts.Action) or getattr(widget, "clickable", False):
             widget.on_msg(self._message)
 
@@ -345,10 +348,8 @@ class Panel(ipywidgets.VBox):
                 with self._silence():
                     widget.act()
                 self.refresh()
-            elif content.get("type") == "click":
-                point = widget.point(content["x"], content["y"])
-                if point is not None:
-                    widget.on_click(*point)
+            elif content.get("type") in ("click", "step"):
+                widget.act_on(content)
 
     @contextlib.contextmanager
     def _silence(self):

@@ -5,13 +5,19 @@ from __future__ import annotations
 import io
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import anywidget
 import numpy as np
 import traitlets
 
 from coursekit.view import controls
+
+INK, PAPER = "#d6dce4", "#1d2025"
+DARK: Any = {  # of a page with a dark theme
+    **dict.fromkeys(("figure.facecolor", "axes.facecolor", "savefig.facecolor", "legend.facecolor"), PAPER),
+    **dict.fromkeys(("text.color", "axes.labelcolor", "xtick.color", "ytick.color", "axes.edgecolor"), INK),
+}
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure  # else only where it is used: its import is slow
@@ -28,6 +34,8 @@ class Plot(anywidget.AnyWidget):
         What to see, as a sentence; also the alternative text of the picture.
     size : (float, float)
         Inches.
+    on_step : function(dx, dy), optional
+        Called for the arrow keys, with whole steps or, with Shift, fifths of them: for those without a mouse.
     on_click : function(x, y), optional
         Called with the point of a click, in the data coordinates of the figure's first axes; clicks outside
         them do not count. What it sets with `Panel.set` draws the panel again.
@@ -41,6 +49,7 @@ class Plot(anywidget.AnyWidget):
     caption = traitlets.Unicode().tag(sync=True)
     width = traitlets.Int().tag(sync=True)
     clickable = traitlets.Bool(False).tag(sync=True)
+    dark = traitlets.Bool(False).tag(sync=True)  # the page says it
 
     def __init__(
         self,
@@ -48,9 +57,10 @@ class Plot(anywidget.AnyWidget):
         caption: str,
         size: tuple[float, float] = (5.2, 3.2),
         on_click: Callable[[float, float], None] | None = None,
+        on_step: Callable[[float, float], None] | None = None,
     ) -> None:
         self.draw = draw
-        self.on_click = on_click
+        self.on_click, self.on_step = on_click, on_step
         self._size = size
         self._figure: Figure | None = None
         self._cost = 0.0  # seconds of the last drawing
@@ -61,15 +71,16 @@ class Plot(anywidget.AnyWidget):
 
     def refresh(self, values: dict) -> None:
         """Draw the figure for these values and send the picture."""
+        from matplotlib import rc_context
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
 
-        begun = time.monotonic()
-        self._figure = Figure(figsize=self._size, dpi=144, layout="constrained")
-        FigureCanvasAgg(self._figure)
-        self.draw(self._figure, values)
-        picture = io.BytesIO()
-        self._figure.savefig(picture, format="png", dpi=144)
+        begun, picture = time.monotonic(), io.BytesIO()
+        with rc_context(DARK if self.dark else {}):
+            self._figure = Figure(figsize=self._size, dpi=144, layout="constrained")
+            FigureCanvasAgg(self._figure)
+            self.draw(self._figure, values)
+            self._figure.savefig(picture, format="png", dpi=144)
         self.png = picture.getvalue()
         self._drawn_at = time.monotonic()
         self._cost = self._drawn_at - begun
@@ -77,6 +88,15 @@ class Plot(anywidget.AnyWidget):
     def has_time(self) -> bool:
         """While a slider is dragged: would drawing now leave most of the time to the robot?"""
         return time.monotonic() - self._drawn_at > 4 * self._cost
+
+    def act_on(self, content: dict) -> None:
+        """A click or an arrow key in the page."""
+        if content["type"] == "step" and self.on_step is not None:
+            self.on_step(content["dx"], content["dy"])
+        elif content["type"] == "click" and self.on_click is not None:
+            point = self.point(content["x"], content["y"])
+            if point is not None:
+                self.on_click(*point)
 
     def point(self, x: float, y: float) -> tuple[float, float] | None:
         """Data coordinates of a click at fractions (x, y) of the picture, or None outside the first axes."""

@@ -24,6 +24,7 @@ class Explorer:
     name: ClassVar[str]  # of the panel
     title: ClassVar[str]  # what the stored line of text calls it
     opener: ClassVar[str]  # the function of `view` that opens it
+    in_space: ClassVar[bool] = True  # the space frame is drawn
     computed: ClassVar[tuple[str, ...]] = ()  # paths of what only `update` can place for another theta
 
     def __init__(self, robot: Robot, student: Any = None) -> None:
@@ -98,6 +99,8 @@ class Explorer:
         controls, below = [*self.controls(), *self.more()], self.below()
         if theta is not None:
             self.start_at(np.asarray(theta, float))
+        if self.in_space:
+            self.scene.frame("/ck/space", np.eye(4), "s", 0.12 * self.scene.size)
         self.panel = Panel(
             self.name,
             self.scene,

@@ -65,7 +65,7 @@ class _Inverse(yours.Inverse, Explorer):
         self.chosen = self.solver.nearest(self.ways, start)
         self.shown = self.ways.theta[self.chosen] if self.chosen >= 0 else start
         self.arm = self.scene.robot(robot, self.shown)
-        self.target = self.scene.frame("/ck/target", self.T, size=0.08 * self.scene.size)
+        self.target = self.scene.frame("/ck/target", self.T, letter="d", size=0.08 * self.scene.size)
 
     def controls(self):
         robot = self.robot
@@ -223,7 +223,7 @@ class _Inverse(yours.Inverse, Explorer):
                 np.maximum(error[:, column], 1e-17), style, ms=4, label=name, color=f"#{PALETTE[color]:06X}"
             )
         if self.frame is not None:
-            ax.axvline(self.frame, color="black", ls="--", lw=1)
+            ax.axvline(self.frame, color=ax.xaxis.label.get_color(), ls="--", lw=1)
         ax.minorticks_off()  # many ticks are slow to draw
         ax.set(xlabel="step", ylabel="angle, distance left", ylim=(1e-17, 10), yticks=[1e-15, 1e-10, 1e-5, 1])
         ax.set_title(self.verdict().split(";")[0], fontsize=10)

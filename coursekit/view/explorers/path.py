@@ -21,7 +21,7 @@ ONE_BOUND = 2.0  # rad/s for every joint (RPI mini project 3, 2021, problem 3); 
 STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1, 1, 1)))
 CAPTION = (
     "Rate of each joint in percent of its bound, at the largest speed that the bounds allow. "
-    "Dotted: the bounds; black, dashed: where the arm rests."
+    "Dotted: the bounds; dashed: where the arm rests."
 )
 
 
@@ -211,7 +211,7 @@ class _Path(yours.Path, Explorer):
         for j, rate in enumerate(use.T):
             color = colormaps["viridis"](j / self.robot.n)
             ax.plot(s[:-1] + step / 2, rate, ls=STYLES[j % 6], color=color, lw=1.6, label=f"joint {j + 1}")
-        ax.axvline(s[self.place], color="black", ls="--", lw=1)
+        ax.axvline(s[self.place], color=ax.xaxis.label.get_color(), ls="--", lw=1)
         for bound in (-100, 100):
             ax.axhline(bound, color="#C2307E", ls=":", lw=1.2)
         ax.set(xlabel="distance along the path [m]", ylabel="rate [% of its bound]", ylim=(-115, 115))

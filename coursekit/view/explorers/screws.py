@@ -45,6 +45,7 @@ def explore_screws(
 
 class _Screws(Explorer):
     name, title, opener = "screws", "Explorer of screws", "explore_screws"
+    in_space = False  # but as one of the frames that look on
 
     def __init__(self, robot, mine):
         super().__init__(robot, mine)

@@ -98,7 +98,11 @@ class _Singularities(yours.Singularities, Explorer):
     def below(self):
         if len(self.offered) < 2:
             return []
-        return [Plot(self.plot, CAPTION if self.split else CAPTION_OF_SIGMA, on_click=self.click)]
+        return [
+            Plot(
+                self.plot, CAPTION if self.split else CAPTION_OF_SIGMA, on_click=self.click, on_step=self.step
+            )
+        ]
 
     def show(self, robot):
         """The arm, and each joint axis as a long line that moves with its link."""
@@ -139,6 +143,13 @@ class _Singularities(yours.Singularities, Explorer):
         nb04.draw_map(ax, self.robot, values["theta"], i, j)
         at = values["theta"] * _shown_per_si(self.robot)
         ax.plot(*at[[i, j]], "X", color="#F07A2B", mec="w", ms=11)
+
+    def step(self, dx, dy):
+        """By arrow keys: five degrees, or fifty millimetres."""
+        values = self.panel.values
+        chosen = [values["across"], values["up"]]
+        per = _shown_per_si(self.robot)[chosen]
+        self.click(*(per * values["theta"][chosen] + np.where(per > 100, 50, 5) * [dx, dy]))
 
     def click(self, x, y):
         values = self.panel.values

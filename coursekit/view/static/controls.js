@@ -14,6 +14,9 @@ function tell(model, changes = {}) {
 
 const trim = (value, digits) => String(Number(value.toFixed(digits)) + 0); // "+ 0": never "-0"
 
+// Labels of a column are equally wide, so that what stands beside them is, too.
+const leaveRoom = (row, model) => row.style.setProperty("--ck-letters", model.get("wide") || 0);
+
 function slider(model, el) {
   let draw = () => {};
   const build = () => {
@@ -40,6 +43,7 @@ function buildSlider(model, el) {
   const ends = element("div", { class: "ck-ends", "aria-hidden": "true" });
   const track = element("div", { class: "ck-track" }, range, ends);
   const row = element("div", { class: "ck-slider" }, name, track, box, element("span", { class: "ck-unit" }, unit), hint);
+  leaveRoom(row, model);
   el.append(row);
 
   // The limits of the joint, marked where they are: at the ends, or inside when the slider goes beyond them.
@@ -135,7 +139,9 @@ function choice(model, el) {
     tell(model, { value: select.value });
   });
   keepKeys(select);
-  el.append(element("label", { class: "ck-choice" }, element("span", { class: "ck-name" }, model.get("label")), select));
+  const row = element("label", { class: "ck-choice" }, element("span", { class: "ck-name" }, model.get("label")), select);
+  leaveRoom(row, model);
+  el.append(row);
   model.on("change:value", draw);
   model.on("change:options", draw);
   draw();
@@ -188,7 +194,7 @@ function table(model, el) {
     const focused = document.activeElement && body.contains(document.activeElement);
     const selectable = model.get("selectable"), value = model.get("value");
     const titles = model.get("header").map((title) => element("th", { scope: "col" }, title));
-    head.replaceChildren(element("tr", {}, ...(selectable ? [element("th", { scope: "col" }, "")] : []), ...titles));
+    head.replaceChildren(element("tr", {}, ...(selectable ? [element("th", { scope: "col" }, element("span", { class: "ck-spoken" }, "choose"))] : []), ...titles));
     body.replaceChildren(...model.get("rows").map((row, i) => {
       const line = element("tr", i === value ? { class: "ck-chosen" } : {}, ...row.map((cell) => element("td", {}, cell)));
       if (selectable) {
@@ -211,6 +217,7 @@ function table(model, el) {
 
 function picture(model, el) {
   const image = element("img", { class: "ck-plot" });
+  const frame = element("div", { class: "ck-map" }, image);
   const caption = element("figcaption", {});
   const draw = () => {
     const data = model.get("png");
@@ -228,11 +235,32 @@ function picture(model, el) {
       const x = (event.clientX - area.left) / area.width, y = 1 - (event.clientY - area.top) / area.height;
       model.send({ type: "click", x, y }); // fractions of the picture, from its lower left corner
     });
+    const help = "arrow keys move the arm on this map, with Shift in small steps";
+    const asked = { ...own, tabindex: 0, role: "application", "aria-roledescription": "map", "aria-label": help, title: help };
+    for (const [name, value] of Object.entries(asked)) frame.setAttribute(name, value);
+    keepKeys(frame);
+    frame.addEventListener("keydown", (event) => {
+      const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+      if (!way) return;
+      event.preventDefault();
+      const [dx, dy] = way.map((d) => (event.shiftKey ? d / 5 : d));
+      model.send({ type: "step", dx, dy });
+    });
   }
-  el.append(element("figure", { class: "ck-figure" }, image, caption));
+  const theme = () => { // the kernel draws it for a dark page anew
+    const dark = document.body.dataset.jpThemeLight === "false";
+    if (dark === model.get("dark")) return;
+    model.set("dark", dark);
+    model.save_changes();
+  };
+  const watch = new MutationObserver(theme);
+  watch.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light"] });
+  theme();
+  el.append(element("figure", { class: "ck-figure" }, frame, caption));
   image.style.width = `${model.get("width")}px`;
   model.on("change:png", draw);
   draw();
+  return () => watch.disconnect();
 }
 
 const makers = { slider, choice, toggle, action, text, table, picture };
@@ -240,7 +268,10 @@ const makers = { slider, choice, toggle, action, text, table, picture };
 export default {
   render({ model, el }) {
     el.classList.add("ck-control");
-    makers[model.get("kind")](model, el);
-    return () => el.replaceChildren();
+    const end = makers[model.get("kind")](model, el) || (() => {});
+    return () => {
+      end();
+      el.replaceChildren();
+    };
   },
 };

@@ -1,0 +1,153 @@
+"""Who can see and use an explorer: on narrow screens, in the dark, by keys, by a screen reader."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from coursekit import lie, robots
+from tests.browser.explorer import Explorer
+
+pytestmark = pytest.mark.browser
+
+KR6 = robots.kuka_kr6()
+AXE = Path(__file__).resolve().parents[2] / ".venv/proxy/node_modules/axe-core/axe.min.js"
+IMPORT = "import numpy as np\nfrom coursekit import lie, robots, view"
+MINE = """
+def fk_poe(S, M, theta):
+    T = M
+    for screw, angle in zip(S.T, theta):  # the first joint last
+        T = lie.exp6(screw * angle) @ T
+    return T
+view.explore(robots.kuka_kr6(), mine=fk_poe)"""
+SIZES = ((1366, 768), (900, 900), (412, 900))
+IN_SIGHT = """async (handle) => {
+    handle.focus();
+    await new Promise((done) => setTimeout(done, 300));
+    const pane = document.querySelector(".jp-WindowedPanel-outer").getBoundingClientRect();
+    const inside = (box) => box.width > 0 && box.top >= pane.top - 1 && box.bottom <= pane.bottom + 1;
+    const column = handle.closest(".ck-column").getBoundingClientRect(), box = handle.getBoundingClientRect();
+    return inside(document.querySelector(".ck-viewer").getBoundingClientRect())
+           && box.top >= column.top - 1 && box.bottom <= column.bottom + 1 && inside(box);
+}"""
+CONTRASTS = """() => {
+    const parse = (text) => text.match(/[\\d.]+/g).map(Number);
+    const light = ([r, g, b]) => [0.2126 * r, 0.7152 * g, 0.0722 * b].map((v, i) => {
+        const c = v / [0.2126, 0.7152, 0.0722][i] / 255;
+        return [0.2126, 0.7152, 0.0722][i] * (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
+    }).reduce((a, b) => a + b);
+    const arm = [240, 122, 43];
+    return [...document.querySelectorAll(".ck-label:not(.tick)")].map((label) => {
+        const style = getComputedStyle(label), [r, g, b, a = 1] = parse(style.backgroundColor);
+        const behind = [r, g, b].map((v, i) => a * v + (1 - a) * arm[i]);
+        const [high, low] = [light(parse(style.color)), light(behind)].sort((x, y) => y - x);
+        return [label.className, (high + 0.05) / (low + 0.05)];
+    });
+}"""
+SMALL = """() => [...document.querySelectorAll(".ck-panel :is(button, input, select, [tabindex='0'])")]
+    .map((one) => (one.closest("label") || one).getBoundingClientRect())
+    .filter((box) => box.width > 0 && (box.width < 24 || box.height < 24)).length"""
+
+
+@pytest.fixture(scope="module")
+def opened(lab, open_page):
+    """The explorer of singularities, in the light; a test that changes the theme puts it back."""
+    notebook = open_page(viewport={"width": 1366, "height": 768})
+    notebook.open(lab.write("sight.ipynb", IMPORT, "view.explore_singularities(robots.kuka_kr6())"))
+    notebook.run_all()
+    notebook.wait_view()
+    return Explorer(notebook, "singularities", KR6)
+
+
+def darken(explorer, theme):
+    explorer.notebook.command("apputils:change-theme", theme=f"JupyterLab {theme}")
+    explorer.page.wait_for_function(
+        f"() => document.body.dataset.jpThemeLight === '{str(theme == 'Light').lower()}'"
+    )
+    explorer.settle()
+
+
+@pytest.mark.parametrize("size", SIZES, ids=str)
+def test_the_picture_and_the_control_that_is_moved_are_in_sight_together(opened, size):
+    opened.page.set_viewport_size({"width": size[0], "height": size[1]})
+    opened.notebook.command("application:toggle-left-area") if size[0] < 800 else None
+    opened.page.wait_for_timeout(500)
+    opened.page.evaluate("() => document.querySelector('.ck-panel').scrollIntoView({ block: 'start' })")
+    sliders = opened.page.locator(".ck-column [role=slider]")
+    for k in range(6):
+        assert sliders.nth(k).evaluate(IN_SIGHT), f"slider {k + 1} at {size}"
+    opened.notebook.command("application:toggle-left-area") if size[0] < 800 else None
+    opened.page.set_viewport_size({"width": 1366, "height": 768})
+
+
+def test_tracks_begin_and_end_below_each_other(opened):
+    boxes = opened.page.eval_on_selector_all(
+        ".ck-column .ck-range", "all => all.map((one) => [one.getBoundingClientRect().left, one.clientWidth])"
+    )
+    assert len(boxes) == 6 and np.ptp(boxes, axis=0).max() < 1
+
+
+def test_everything_that_can_be_pressed_is_large_enough(opened):
+    assert opened.page.evaluate(SMALL) == 0
+
+
+def test_the_map_is_walked_by_arrow_keys(opened):
+    before = opened.values()
+    opened.page.get_by_label("arrow keys move the arm on this map", exact=False).focus()
+    for key in ("ArrowRight", "ArrowUp", "ArrowUp", "Shift+ArrowLeft"):
+        opened.page.keyboard.press(key)
+        opened.settle()
+    np.testing.assert_allclose(np.degrees(opened.values() - before), [0, 4, 10, 0, 0, 0], atol=1e-9)
+    opened.assert_arm_stands_at(opened.values())
+
+
+@pytest.mark.parametrize("theme", ["Dark", "Light"])
+def test_labels_can_be_read_over_the_arm_and_plots_are_of_the_theme(opened, theme):
+    darken(opened, theme)
+    contrasts = opened.page.evaluate(CONTRASTS)
+    assert len(contrasts) > 3 and min(value for _, value in contrasts) >= 4.5, contrasts
+    corner = opened.page.evaluate(
+        """async () => {
+             const image = document.querySelector("img.ck-plot"), canvas = document.createElement("canvas");
+             await image.decode();
+             [canvas.width, canvas.height] = [4, 4];
+             canvas.getContext("2d").drawImage(image, 0, 0, 4, 4, 0, 0, 4, 4);
+             return [...canvas.getContext("2d").getImageData(1, 1, 1, 1).data].slice(0, 3);
+           }"""
+    )
+    assert max(corner) < 60 if theme == "Dark" else min(corner) > 240
+
+
+@pytest.mark.parametrize("theme", ["Dark", "Light"])
+def test_axe_finds_nothing(opened, theme):
+    if not AXE.is_file():
+        (pytest.fail if os.environ.get("CI") == "true" else pytest.skip)(
+            "axe-core is not installed (.ci/run)"
+        )
+    darken(opened, theme)
+    opened.page.evaluate(AXE.read_text(encoding="utf-8"))
+    found = opened.page.evaluate(
+        """async () => (await axe.run({ include: [[".ck-panel"]] }, { resultTypes: ["violations"] }))
+                         .violations.map((one) => [one.id, one.nodes[0].html])"""
+    )
+    assert found == []
+
+
+def test_yours_follows_the_sliders(lab, open_page):
+    notebook = open_page()
+    notebook.open(lab.write("mine.ipynb", IMPORT, MINE))
+    notebook.run_all()
+    notebook.wait_view()
+    explorer = Explorer(notebook, "conventions", KR6)
+    for label, keys in (("θ2", ["PageUp"] * 3), ("θ4", ["PageDown"] * 2)):
+        explorer.slide(label, keys)
+        theta = explorer.values()
+        explorer.assert_arm_stands_at(theta)
+        turned = np.eye(4)
+        for screw, angle in zip(KR6.S.T, theta, strict=True):
+            turned = lie.exp6(screw * angle) @ turned
+        found = notebook.wait_transform("/ck/yours/fk_poe/arm/6", turned)
+        np.testing.assert_allclose(found, turned, atol=1e-9)
+        assert "is the first that is off, by " in explorer.words()
+    assert notebook.errors == []
