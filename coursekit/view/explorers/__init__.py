@@ -111,6 +111,6 @@ class Explorer:
             self.title,
             height,
             drivers=self.drivers,
-            computed=[*self.computed, sketch.ROOT],
+            computed=[*self.computed, *([sketch.ROOT] if self.mine.functions else [])],
         )
         return self.panel
