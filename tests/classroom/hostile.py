@@ -194,6 +194,7 @@ for line in get_ipython().history_manager.get_range():
 )
 cell_kind("a_million_lines", "x = 1\n" * 1_000_000)
 cell_kind("exit_in_a_cell", "exit()")
+cell_kind("help_in_a_cell", "help(np.cos)\nquit()")
 cell_kind("a_null_byte", "x = 1\x00")
 cell_kind("lone_surrogates", "x = '\ud800'")
 cell_kind("sys_exit_in_a_cell", "import sys\nsys.exit(3)")

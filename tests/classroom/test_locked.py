@@ -15,7 +15,7 @@ import pytest
 from coursekit import robots
 from coursekit.classroom.author import tables
 from coursekit.classroom.course import the_course
-from coursekit.classroom.grader import box, locked, worker
+from coursekit.classroom.grader import box, follow_on, locked, worker
 from coursekit.classroom.grader.box import bubblewrap
 from tests.classroom.small import grade_small
 
@@ -242,3 +242,17 @@ def test_the_whole_course_can_be_graded(tmp_path):
     """Its canaries: in the box every solved notebook gets full marks, every untouched one none."""
     (tmp_path / "in").mkdir()
     assert grade_small(tmp_path / "in", tmp_path / "out", course=the_course()).startswith("0 students")
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_follow_on_never_brings_the_solution_in_question(unit):
+    """Earlier solutions enter a box of their own; the one that is judged does not."""
+    course = the_course()
+    names = [exercise.name for exercise in course.exercises(unit)]
+    for number, name in enumerate(names[1:], 1):
+        sources = follow_on.solutions(course, unit, names[:number], name)
+        space = {}
+        for source in sources:
+            exec(source, space)
+        assert name not in space
+        assert set(names[:number]) <= space.keys()

@@ -43,7 +43,7 @@ def is_right(
     robots_can: tuple[str, list[str]] | None = None,
 ) -> bool:
     """Is the exercise right with right earlier ones?"""
-    student.replace(_solutions(course, unit, earlier, exercise.name), earlier)
+    student.replace(solutions(course, unit, earlier, exercise.name), earlier)
     try:
         attempts = student.ask(exercise, [example.arguments for example in examples], robots_can)
     except (BoxLost, ValueError):
@@ -53,7 +53,7 @@ def is_right(
     return verdict(exercise, examples, attempts).right
 
 
-def _solutions(course: Course, unit: str, names: list[str], but: str) -> list[str]:
+def solutions(course: Course, unit: str, names: list[str], but: str) -> list[str]:
     """The set-up and the solutions down to the last of these: solutions may call earlier ones."""
     sources, left = [], set(names)
     for cell in notebook.read(course.notebook(unit))["cells"]:

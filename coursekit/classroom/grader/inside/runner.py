@@ -233,7 +233,8 @@ def main() -> None:
     sys.meta_path.insert(0, StandIns())
     if released:
         open_the_classroom()
-    builtins.__dict__.update(get_ipython=Nothing(), display=Nothing())
+    for name in ("get_ipython", "display", "help", "exit", "quit"):
+        builtins.__dict__[name] = Nothing()
     main_module = types.ModuleType("__main__")
     sys.modules["__main__"] = main_module
     space = main_module.__dict__
