@@ -141,8 +141,10 @@ def _same_course(folder: Path, before: dict, source: Path, after: dict) -> None:
             f"{source / RELEASE}, version: {after['version']} is older than the {before['version']} that "
             f"{folder} holds"
         )
-    if (theirs := _student(source)) and (mine := _student(folder)) and theirs != mine:
-        raise ValueError(f"{source / STUDENT}, id: that is the release of {theirs}; {folder} is {mine}'s")
+    mine, theirs = _student(folder), _student(source)
+    if mine and theirs != mine:
+        whose = f"the release of {theirs}" if theirs else "a release for everybody, without anybody's arm"
+        raise ValueError(f"{source / STUDENT}, id: that is {whose}; {folder} is {mine}'s")
 
 
 def _planned(

@@ -557,11 +557,15 @@ def test_a_roster_from_a_spreadsheet_is_read(tmp_path):
     assert roster.read(tmp_path / "r.csv") == [roster.Student("s1", "Ada", "a@x")]
 
 
-def test_an_update_is_not_somebody_elses(in_class):
+def test_an_update_is_not_somebody_elses(in_class, folder, tmp_path):
     from coursekit.classroom import update
 
     assert "is the release of s2" in told(update.update, in_class / "s2", in_class / "s1")
     assert "nothing changed" in update.update(in_class, in_class / "s1")  # the folder of the whole class
+    release.release(tmp_path / "everybody", read(folder))
+    assert "without anybody's arm" in told(update.update, tmp_path / "everybody", in_class / "s1")
+    assert "nothing changed" not in update.update(in_class / "s1", tmp_path / "everybody")
+    assert (tmp_path / "everybody" / own.FILE).is_file()
 
 
 def test_two_with_the_same_arm_are_refused(folder, tmp_path, monkeypatch):
