@@ -8,7 +8,7 @@ import shutil
 import zipfile
 
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from coursekit.__main__ import main
@@ -384,6 +384,7 @@ def edited(notebook, edits):
     return wrote
 
 
+@settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])  # the machine may be busy
 @given(
     st.lists(st.sampled_from(NAMES), unique=True),
     st.lists(st.sampled_from(NAMES), unique=True),
