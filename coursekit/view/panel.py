@@ -37,6 +37,7 @@ from numpy.typing import ArrayLike
 from coursekit.view import cells, layout
 from coursekit.view import controls as parts
 from coursekit.view.scene import Arm, Scene
+from coursekit.view.target import PoseSliders
 from coursekit.view.viewer import Viewer, mimebundle
 
 
@@ -136,6 +137,10 @@ class Panel(ipywidgets.VBox):
         self.viewer.controls = [f"IPY_MODEL_{widget.model_id}" for widget in touchable]
         self.viewer.driven_by(self._drivers(values))
         self.viewer.observe(self._frame_changed, ["frame", "playing"])
+        for control in self._controls.values():
+            if isinstance(control, PoseSliders):
+                self.viewer.held_by(control.path, control.letter, control.sliders)
+        self.viewer.observe(self._dragged, "dragged")
         cells.take_place(self)
 
     # -- values
@@ -331,6 +336,23 @@ class Panel(ipywidgets.VBox):
                 last = len(self.motion.thetas) - 1
                 self.motion.frame, self._played = min(max(self.viewer.frame, 0), last), self.viewer.playing
                 self.refresh(live=self._played)
+
+    def _dragged(self, change):
+        """A hand in the picture moved the target or the joints: their sliders say so, all at once."""
+        with self._lock:
+            told = change.new
+            for_target = [c for c in self._controls.values() if isinstance(c, PoseSliders)]
+            sliders = for_target[0].sliders if told["what"] == "target" else self._drivers(self.values)
+            with self._silence():
+                for slider, value in zip(sliders, told["values"], strict=False):
+                    if slider is not None and value is not None:
+                        slider.value, slider.live = value, told["live"]
+            try:
+                self._end_motion()
+                self.refresh(live=told["live"])
+            finally:
+                self.viewer.heard = told["count"]
+                self.viewer.answers += 1
 
     def _end_motion(self):
         self.motion = None

@@ -11,7 +11,13 @@ from coursekit.view.controls import Slider, Sliders
 TURNS = {"yaw": np.pi, "pitch": np.pi / 2, "roll": np.pi}  # how far each goes either way
 
 
-def pose_sliders(T: ArrayLike, robot: Robot, name: str = "pose") -> Sliders:
+class PoseSliders(Sliders):
+    """Where a target is. In the picture its frame, at `path`, has handles that move these sliders."""
+
+    path, letter = "/ck/target", "d"
+
+
+def pose_sliders(T: ArrayLike, robot: Robot, name: str = "pose") -> PoseSliders:
     """Sliders whose value is (x, y, z, yaw, pitch, roll) in metres and radians, at first those of T (4, 4).
 
     They go a little further than the arm, so that a target may be out of its reach.
@@ -23,7 +29,7 @@ def pose_sliders(T: ArrayLike, robot: Robot, name: str = "pose") -> Sliders:
     T = checks.pose(checks.array(T, (4, 4), "T"), "T")
     x_y_z = (Slider(n, p, -reach, reach, "mm") for n, p in zip("xyz", T[:3, 3], strict=True))
     turns = zip(TURNS.items(), rotations.zyx(T[:3, :3]), strict=True)
-    return Sliders(name, [*x_y_z, *(Slider(n, t, -end, end, "deg") for (n, end), t in turns)])
+    return PoseSliders(name, [*x_y_z, *(Slider(n, t, -end, end, "deg") for (n, end), t in turns)])
 
 
 def pose_of(values: ArrayLike) -> np.ndarray:

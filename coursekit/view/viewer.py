@@ -29,7 +29,7 @@ from coursekit.view.picture import png
 from coursekit.view.scene import Scene
 
 STATIC = Path(__file__).parent / "static"
-_SCRIPTS = ("html", "bundle", "stage", "actors", "player", "kinematics", "follow", "viewer")
+_SCRIPTS = ("html", "bundle", "stage", "actors", "player", "kinematics", "follow", "handles", "viewer")
 
 
 def script() -> str:
@@ -72,6 +72,11 @@ class Viewer(anywidget.AnyWidget):
     playing = traitlets.Bool(False).tag(sync=True)  # more frames will follow
     drive = traitlets.Dict().tag(sync=True)  # how the page moves an arm by its sliders, see `driven_by`
     theta: traitlets.List = traitlets.List().tag(sync=True)  # where that arm is in `pose`
+    handle = traitlets.Dict().tag(sync=True)  # the target that can be dragged, see `held_by`
+    dragged = traitlets.Dict().tag(
+        sync=True
+    )  # what a hand in the picture did: {"what", "values", "live", "count"}
+    heard = traitlets.Int(0).tag(sync=True)  # the count of the last of them that the kernel has taken over
     controls: traitlets.List = traitlets.List().tag(
         sync=True
     )  # references to the models of a panel's controls
@@ -142,6 +147,15 @@ class Viewer(anywidget.AnyWidget):
             "M": robot.M.T.ravel().tolist(),
             "sliders": [slider and f"IPY_MODEL_{slider.model_id}" for slider in sliders],
             "per": [slider.shown_per_si if slider else 1.0 for slider in sliders],
+        }
+
+    def held_by(self, path: str, letter: str, sliders: Sequence[Slider]) -> None:
+        """Let a person drag the frame at `path` in the picture: its sliders are x, y, z, yaw, pitch, roll."""
+        self.handle = {
+            "path": path,
+            "letter": letter,
+            "sliders": [f"IPY_MODEL_{slider.model_id}" for slider in sliders],
+            "per": [slider.shown_per_si for slider in sliders],
         }
 
     def set_pose(self, transforms: ArrayLike) -> None:

@@ -365,3 +365,26 @@ def test_every_change_is_answered(made):
     before = panel.viewer.answers
     as_the_browser(panel._controls["on"], value=False, touched=1)  # nothing changed, and yet somebody asked
     assert panel.viewer.answers > before
+
+
+def test_what_a_hand_drags_in_the_picture_goes_to_its_sliders_at_once():
+    """One message moves all six sliders of a target, or the joints, and is answered."""
+    panel = view.explore_jacobians()
+    try:
+        handle = panel.viewer.handle
+        assert (handle["path"], handle["letter"]) == ("/ck/target", "d")
+        assert len(handle["sliders"]) == len(handle["per"]) == 6
+        shown = [300.0, 100.0, 500.0, 10.0, 20.0, 30.0]
+        panel.viewer.set_state({"dragged": {"what": "target", "values": shown, "live": True, "count": 1}})
+        np.testing.assert_allclose(
+            panel.values["pose"], [0.3, 0.1, 0.5, *np.radians([10, 20, 30])], rtol=0, atol=1e-12
+        )
+        assert panel.viewer.heard == 1
+        degrees = [0, 10, 0, -90, 0, 90, None]
+        before = panel.values["theta"]
+        panel.viewer.set_state({"dragged": {"what": "theta", "values": degrees, "live": False, "count": 2}})
+        np.testing.assert_allclose(np.degrees(panel.values["theta"][:6]), degrees[:6], atol=1e-9)
+        assert panel.values["theta"][6] == before[6] and panel.viewer.heard == 2
+        np.testing.assert_array_equal(panel.scene.robots["robot"].theta, panel.values["theta"])
+    finally:
+        panel.close()

@@ -22,9 +22,12 @@ function makeFollower(model, moved) {
     const { per } = model.get("drive"), known = model.get("theta");
     return sliders.map((slider, k) => (slider ? slider.get("value") / per[k] : known[k]));
   };
-  model.on("change:drive", listen);
+  const again = () => (ready = listen());
+  model.on("change:drive", again);
+  let ready = listen();
   return {
-    ready: listen(),
+    ready: () => ready, // the sliders are known
+    sliders: () => sliders,
     theta,
     isAhead: () => ahead,
     // a pose of the kernel is there: does it speak of what the sliders say now?
@@ -44,7 +47,7 @@ function makeFollower(model, moved) {
     end() {
       over = true;
       forget();
-      model.off("change:drive", listen);
+      model.off("change:drive", again);
     },
   };
 }

@@ -57,3 +57,73 @@ export function describe({ name, screws, M }, theta) {
   const tool = product(displacements(screws, theta).at(-1), M).slice(12, 15);
   return `${name}: joints ${joints}; tool at (${tool.map((x) => round(1000 * x)).join(", ")}) mm`;
 }
+
+/**
+ * The pose of a target from what its six sliders say, column by column: x, y, z, then yaw, pitch, roll.
+ * @param {number[]} values metres and radians
+ */
+export function poseOf([x, y, z, yaw, pitch, roll]) {
+  const turn = (axis, angle) => exponential([...axis, 0, 0, 0], angle);
+  const R = product(product(turn([0, 0, 1], yaw), turn([0, 1, 0], pitch)), turn([1, 0, 0], roll));
+  return [...R.slice(0, 12), x, y, z, 1];
+}
+
+/** x, y, z, yaw, pitch, roll of a pose, as rotations.zyx in Python gives the angles. @param {ArrayLike<number>} T */
+export function valuesOf(T) {
+  const level = Math.hypot(T[0], T[1]);
+  const upright = level < 1e-9; // then only yaw - roll, or their sum, is known: the roll is taken to be 0
+  const yaw = upright ? Math.atan2(-T[4], T[5]) : Math.atan2(T[1], T[0]);
+  return [T[12], T[13], T[14], yaw, Math.atan2(-T[2], level), upright ? 0 : Math.atan2(T[6], T[10])];
+}
+
+/** T moved along (kind 0) or turned about (kind 1) its own axis k. @param {number[]} T @param {number} by metres, radians */
+export function movedAlong(T, kind, k, by) {
+  const axis = [0, 1, 2].map((i) => Number(i === k));
+  return product(T, exponential(kind ? [...axis, 0, 0, 0] : [0, 0, 0, ...axis], by));
+}
+
+/**
+ * Joint values nearer to where the tool point should go, by damped least squares; joints that are not free stay.
+ * @param {{screws: number[][], M: number[]}} arm @param {number[]} theta @param {number[]} goal (x, y, z) in metres
+ * @param {(number[] | null)[]} ends lowest and highest value of each free joint, null of the others
+ */
+export function reachFor({ screws, M }, theta, goal, ends) {
+  const gapAt = (q) => {
+    const D = displacements(screws, q), p = product(D.at(-1), M).slice(12, 15), gap = goal.map((x, i) => x - p[i]);
+    return { q, D, p, gap, far: Math.hypot(...gap) };
+  };
+  const free = ends.map(Boolean); // a joint that has come to its end does not help any more
+  let here = gapAt(theta), damping = 1e-3;
+  for (let step = 0; step < 25 && here.far > 1e-6 && damping < 1e3; step += 1) {
+    const columns = screws.map((S, k) => (free[k] ? velocityOf(k ? here.D[k - 1] : null, S, here.p) : null));
+    const A = [0, 1, 2].map((i) => [0, 1, 2].map((j) => columns.reduce((sum, c) => sum + (c ? c[i] * c[j] : 0), i === j ? damping : 0)));
+    const y = solve3(A, here.gap);
+    const change = columns.map((c) => (c ? dot(c, y) : 0));
+    const calm = Math.min(1, 0.2 / Math.max(...change.map(Math.abs), 1e-12)); // no joint leaps
+    const q = here.q.map((value, k) => (columns[k] ? Math.min(ends[k][1], Math.max(ends[k][0], value + calm * change[k])) : value));
+    const there = gapAt(q);
+    if (there.far < here.far) { // only what brings the tool nearer counts
+      here = there;
+      damping = Math.max(1e-6, damping / 4);
+      q.forEach((value, k) => { if (free[k] && (value === ends[k][0] || value === ends[k][1])) free[k] = false; });
+    } else damping *= 8;
+  }
+  return here.q;
+}
+
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const times = (T, [x, y, z]) => [0, 1, 2].map((i) => T[i] * x + T[4 + i] * y + T[8 + i] * z);
+const crossed = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+
+/** How fast a point p goes when a joint moves, whose screw S the joints before carried by T (null: by nothing). */
+export function velocityOf(T, S, p) {
+  const w = T ? times(T, S.slice(0, 3)) : S.slice(0, 3), v = T ? times(T, S.slice(3)) : S.slice(3);
+  const from = T ? p.map((x, i) => x - T[12 + i]) : p;
+  return crossed(w, from).map((x, i) => x + v[i]);
+}
+
+function solve3(A, b) {
+  const [a, c, d] = [0, 1, 2].map((j) => [A[0][j], A[1][j], A[2][j]]); // columns
+  const det = dot(a, crossed(c, d));
+  return [dot(b, crossed(c, d)) / det, dot(a, crossed(b, d)) / det, dot(a, crossed(c, b)) / det];
+}

@@ -29,7 +29,7 @@ export default function () {
 
     async render({ model, el, signal }) {
       const pane = element("div", { class: "ck-pane", tabindex: 0, role: "group", "aria-roledescription": "3D view",
-        "data-lm-suppress-shortcuts": "true", title: "drag: turn, right drag: move, wheel after a click: zoom; keys: arrows, + and -, Home" });
+        "data-lm-suppress-shortcuts": "true", title: "drag: turn (on a link: its joint), right drag: move, wheel after a click: zoom; keys: arrows, + and -, Home" });
       const buttons = element("div", { ...own, class: "ck-views", role: "group", "aria-label": "views" });
       const box = element("div", { class: "ck-viewer" }, pane, buttons);
       const text = element("div", { class: "ck-text", "aria-live": "polite" });
@@ -108,6 +108,13 @@ export default function () {
         slid = true;
         stage.moved();
       });
+      const handles = makeHandles(MeshCat.THREE, viewer, pane, stage.renderer, model, follower, {
+        taken() {
+          player.load(null);
+          stage.moved();
+        },
+        redraw: () => viewer.set_dirty(),
+      });
       wake = stage.wake;
       draw = (k) => {
         place(played, poses, k);
@@ -119,11 +126,12 @@ export default function () {
         if (pose) place(moving, pose, 0);
         if ((pose || slid) && follower.isAhead()) place(...follower.pose(), 0);
         else if (pose && player.loaded()) place(played, poses, player.frame()); // further than the kernel knows
+        handles.place();
         pose = null;
         slid = false;
         player.tick(now);
       });
-      stage.afterFrame.push(labels.place);
+      stage.afterFrame.push(labels.place, handles.draw);
 
       const onPose = () => {
         moving = model.get("moving").map(splitPath);
@@ -200,6 +208,7 @@ export default function () {
         for (const [name, act] of Object.entries(changes)) model.off(`change:${name}`, act);
         unwatch();
         follower.end();
+        handles.end();
         delete box.coursekit;
         el.replaceChildren();
         views.delete(view);
@@ -271,6 +280,7 @@ function watchKernel(model, line) {
     line.textContent = "";
   };
   model.on("change:answers", answered);
+  model.on("change:dragged", asked);
   childModels(model, "controls").then((controls) => {
     if (over) return;
     for (const control of controls) control.on("change:touched", asked);
@@ -281,11 +291,13 @@ function watchKernel(model, line) {
     answered();
     forget();
     model.off("change:answers", answered);
+    model.off("change:dragged", asked);
   };
 }
 
 // The models behind a trait that holds references to widgets.
-function childModels(model, name) {
-  const ids = model.get(name) || [];
+function childModels(model, name, key) {
+  const held = model.get(name) || [];
+  const ids = key ? held[key] : held;
   return Promise.all(ids.map((id) => model.widget_manager.get_model(id.replace("IPY_MODEL_", ""))));
 }

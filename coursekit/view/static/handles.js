@@ -1,0 +1,267 @@
+// What a hand can take hold of in the picture: arrows and rings at a target, the tool, the links of the arm. By mouse,
+// touch and keys. They are HTML over the picture, so that they are found by Tab and by a screen reader, and cost no frame.
+//
+// A grip moves its point by one number; where the pointer goes, that number follows: along the way of the point on the
+// screen. All of it ends in sliders, as if a person had moved those, and reaches the kernel as one message.
+
+const ARROW = 88, RING = 48; // pixels
+const SVG = "http://www.w3.org/2000/svg";
+
+// taken(): a hand has moved something; redraw(): what stands where has changed
+function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, redraw }) {
+  const layer = element("div", { class: "ck-handles", role: "group", "aria-label": "handles in the picture" });
+  const lines = document.createElementNS(SVG, "svg");
+  lines.setAttribute("aria-hidden", "true");
+  layer.append(lines);
+  pane.append(layer);
+  let target = null, drawn = []; // the target's sliders; buttons with where they stand
+  let held = null; // values of the target in our hands, before the kernel has them
+  let sent = 0, over = false;
+
+  // --- from metres to pixels: a point of the space frame on the screen
+  const point = new THREE.Vector3(), eye = new THREE.Vector3();
+  const project = (p) => {
+    const { width, height } = renderer.size();
+    viewer.scene_tree.find(["ck"]).object.localToWorld(point.set(...p)).project(viewer.camera);
+    return [((point.x + 1) / 2) * width, ((1 - point.y) / 2) * height, point.z];
+  };
+  const perMetre = (p) => { // pixels
+    const { height } = renderer.size();
+    const far = viewer.scene_tree.find(["ck"]).object.localToWorld(point.set(...p)).distanceTo(eye.setFromMatrixPosition(viewer.camera.matrixWorld));
+    return height / 2 / Math.tan((Math.PI / 360) * viewer.camera.fov) / far;
+  };
+  // How far a number must go so that point p, which moves by `way` metres for 1, follows the pointer by (dx, dy) pixels.
+  const follow = (p, way, dx, dy) => {
+    const size = 1e-3, a = project(p), b = project(p.map((x, i) => x + size * way[i]));
+    const sx = (b[0] - a[0]) / size, sy = (b[1] - a[1]) / size;
+    return (dx * sx + dy * sy) / Math.max(sx * sx + sy * sy, (0.15 * perMetre(p) * Math.hypot(...way)) ** 2, 1e-9);
+  };
+
+  // --- sliders: set here at once, and told to the kernel in one message, of which the latest wins
+  const put = (what, sliders, values, live) => {
+    values.forEach((value, k) => {
+      if (!sliders[k]) return;
+      const inside = Math.min(sliders[k].get("max"), Math.max(sliders[k].get("min"), value));
+      sliders[k].set("value", Number(inside.toPrecision(15)));
+      sliders[k].set("touched", sliders[k].get("touched") + 1); // the arm follows, and whoever waits for the kernel
+    });
+    sent += 1;
+    model.set("dragged", { what, values: sliders.map((slider) => slider && slider.get("value")), live, count: sent });
+    model.save_changes();
+    taken();
+  };
+  const unheard = () => sent > model.get("heard");
+  const putTarget = (T, live) => {
+    put("target", target.sliders, valuesOf(T).map((value, k) => value * target.per[k]), live);
+    held = target.sliders.map((slider, k) => slider.get("value") / target.per[k]);
+  };
+  const targetValues = () => held || target.sliders.map((slider, k) => slider.get("value") / target.per[k]);
+  const targetPose = () => poseOf(targetValues());
+  const putTheta = (theta, live) => {
+    const { per } = model.get("drive");
+    put("theta", follower.sliders(), theta.map((q, k) => q * per[k]), live);
+  };
+  const ends = () => follower.sliders().map((slider, k) => {
+    const per = model.get("drive").per[k];
+    return slider && [slider.get("min") / per, slider.get("max") / per];
+  });
+
+  // --- grips: where each stands, and what a pull and a key do
+  const targetGrips = () => [0, 1].flatMap((kind) => [0, 1, 2].map((k) => {
+    const T = () => targetPose();
+    const column = (j) => T().slice(4 * j, 4 * j + 3);
+    const origin = () => T().slice(12, 15);
+    const place = () => {
+      const long = (kind ? RING : ARROW) / perMetre(origin());
+      const [u, v] = [column((k + 1) % 3), column((k + 2) % 3)];
+      const way = kind ? u.map((x, i) => -(x + v[i]) * Math.SQRT1_2) : column(k); // rings on the far side of the arrows
+      return origin().map((x, i) => x + long * way[i]);
+    };
+    const path = () => {
+      if (!kind) return [origin(), place()];
+      const long = RING / perMetre(origin()), [u, v] = [column((k + 1) % 3), column((k + 2) % 3)];
+      return Array.from({ length: 37 }, (_, i) => {
+        const [c, s] = [Math.cos((i * Math.PI) / 18) * long, Math.sin((i * Math.PI) / 18) * long];
+        return origin().map((x, j) => x + c * u[j] + s * v[j]);
+      });
+    };
+    const name = "xyz"[k];
+    return {
+      text: kind ? `↻${name}` : name, kind: kind ? `${name} ring` : name, place, path,
+      label: kind ? `turn {${target.letter}} about its ${name}` : `move {${target.letter}} along its ${name}`,
+      pull(dx, dy) {
+        const p = place();
+        const way = kind ? crossed(column(k), p.map((x, i) => x - origin()[i])) : column(k);
+        putTarget(movedAlong(T(), kind, k, follow(p, way, dx, dy)), true);
+      },
+      key: (steps, live) => putTarget(movedAlong(T(), kind, k, steps * (kind ? Math.PI / 180 : 0.01)), live),
+      end: () => putTarget(T(), false),
+    };
+  }));
+  const toolGrip = () => {
+    const arm = () => model.get("drive");
+    const place = () => product(displacements(arm().screws, follower.theta()).at(-1), arm().M).slice(12, 15);
+    let goal = null;
+    const reach = (live) => putTheta(reachFor(arm(), follower.theta(), goal, ends()), live);
+    return {
+      text: "tool", kind: "tool", place, path: () => [], label: "move the tool",
+      pull(dx, dy) { // in the plane of the screen
+        goal = goal || place();
+        const [right, up] = [0, 1].map((k) => new THREE.Vector3().setFromMatrixColumn(viewer.camera.matrixWorld, k));
+        const way = right.multiplyScalar(dx).addScaledVector(up, -dy).divideScalar(perMetre(goal));
+        const frame = viewer.scene_tree.find(["ck"]).object.matrixWorld.clone().invert();
+        way.transformDirection(frame).multiplyScalar(Math.hypot(dx, dy) / perMetre(goal));
+        goal = goal.map((x, i) => x + way.toArray()[i]);
+        reach(true);
+      },
+      key(steps, live, axis = 0) {
+        goal = place();
+        goal[axis] += 0.01 * steps;
+        reach(live);
+        goal = null;
+      },
+      end() {
+        goal = null;
+        putTheta(follower.theta(), false);
+      },
+    };
+  };
+
+  // --- one button for each grip
+  const hold = (event, grip, node) => { // until the pointer is let go
+    event.preventDefault();
+    event.stopPropagation();
+    node.setPointerCapture(event.pointerId);
+    let last = [event.clientX, event.clientY], due = null;
+    const pull = () => {
+      const [dx, dy] = [due[0] - last[0], due[1] - last[1]];
+      [last, due] = [due, null];
+      if (dx || dy) grip.pull(dx, dy);
+    };
+    const move = (now) => {
+      if (now.pointerId !== event.pointerId) return;
+      if (!due) requestAnimationFrame(() => due && !over && pull()); // once a frame is enough
+      due = [now.clientX, now.clientY];
+    };
+    const end = () => {
+      if (due) pull();
+      for (const name of ["pointerup", "pointercancel", "lostpointercapture"]) node.removeEventListener(name, end);
+      node.removeEventListener("pointermove", move);
+      viewer.controls.enabled = true;
+      grip.end();
+    };
+    viewer.controls.enabled = false;
+    node.addEventListener("pointermove", move);
+    for (const name of ["pointerup", "pointercancel", "lostpointercapture"]) node.addEventListener(name, end);
+  };
+  const makeButton = (grip) => {
+    const node = element("button", { ...own, type: "button", class: `ck-handle ${grip.kind}`, "aria-label": grip.label,
+      title: `${grip.label}: drag it, or use the arrow keys (Shift: finer)` }, grip.text);
+    const line = document.createElementNS(SVG, "polyline");
+    line.setAttribute("class", `ck-handle-line ${grip.kind}`);
+    lines.append(line);
+    node.addEventListener("pointerdown", (event) => {
+      if (event.button) return;
+      node.focus({ preventScroll: true });
+      hold(event, grip, node);
+    });
+    node.addEventListener("keydown", (event) => {
+      const [sign, axis] = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [1, 1], ArrowDown: [-1, 1], PageUp: [1, 2], PageDown: [-1, 2] }[event.key] || [0];
+      event.stopPropagation();
+      if (!sign) return;
+      event.preventDefault();
+      grip.key(sign * (event.shiftKey ? 0.1 : 1), event.repeat, axis);
+    });
+    layer.append(node);
+    return { node, line, grip };
+  };
+
+  const rebuild = () => {
+    const grips = [...(target ? targetGrips() : []), ...(follower.sliders().some(Boolean) ? [toolGrip()] : [])];
+    lines.replaceChildren();
+    drawn.forEach(({ node }) => node.remove());
+    drawn = grips.map(makeButton);
+    redraw();
+  };
+  const listen = async () => {
+    const { path, letter, per } = model.get("handle") || {};
+    const sliders = path && (await childModels(model, "handle", "sliders"));
+    await follower.ready();
+    if (over) return;
+    target = sliders ? { sliders, letter, per, path: splitPath(path) } : null;
+    rebuild();
+  };
+  model.on("change:handle", listen);
+  model.on("change:drive", listen);
+  listen();
+
+  // --- a link of the arm turns its joint
+  const ray = new THREE.Raycaster(), at = new THREE.Vector2();
+  const linkAt = (event) => { // number of the joint, and the point where it was taken
+    const { path, screws } = model.get("drive"), sliders = follower.sliders();
+    if (!path || !sliders.some(Boolean)) return null;
+    const area = pane.getBoundingClientRect();
+    at.set((2 * (event.clientX - area.left)) / area.width - 1, 1 - (2 * (event.clientY - area.top)) / area.height);
+    ray.setFromCamera(at, viewer.camera);
+    const links = screws.map((_, k) => viewer.scene_tree.find([...splitPath(path), String(k + 1), "solid"]).object);
+    const hit = ray.intersectObjects(links.filter((link) => link.visible), true)[0];
+    if (!hit) return null;
+    const k = links.findIndex((link) => { for (let o = hit.object; o; o = o.parent) if (o === link) return true; return false; });
+    return sliders[k] ? { k, p: viewer.scene_tree.find(["ck"]).object.worldToLocal(hit.point.clone()).toArray() } : null;
+  };
+  const linkGrip = ({ k, p }) => {
+    const carried = () => displacements(model.get("drive").screws, follower.theta());
+    const inverse = new THREE.Matrix4().fromArray(carried()[k]).invert();
+    const there = new THREE.Vector3(...p).applyMatrix4(inverse); // on the link, at zero
+    return {
+      pull(dx, dy) {
+        const D = carried(), here = there.clone().applyMatrix4(new THREE.Matrix4().fromArray(D[k])).toArray();
+        const way = velocityOf(k ? D[k - 1] : null, model.get("drive").screws[k], here);
+        putTheta(follower.theta().map((q, j) => (j === k ? q + follow(here, way, dx, dy) : q)), true);
+      },
+      end: () => putTheta(follower.theta(), false),
+    };
+  };
+  pane.addEventListener("pointerdown", (event) => {
+    if (event.button || event.ctrlKey || event.shiftKey || event.target.closest(".ck-handle")) return;
+    const link = linkAt(event);
+    if (!link) return;
+    pane.focus({ preventScroll: true });
+    hold(event, linkGrip(link), pane);
+  }, { capture: true });
+  let rests = null;
+  pane.addEventListener("pointermove", (event) => { // where the pointer rests on a link, it says so
+    clearTimeout(rests);
+    if (event.buttons || event.pointerType !== "mouse") return;
+    rests = setTimeout(() => !over && pane.classList.toggle("ck-on-link", Boolean(linkAt(event))), 80);
+  });
+
+  return {
+    // the page's own pose of the target, as long as the kernel has not said the last one
+    place() {
+      if (held && !unheard()) held = null;
+      if (!held || !target) return;
+      target.sliders.forEach((slider, k) => slider.set("value", Number((held[k] * target.per[k]).toPrecision(15))));
+      viewer.set_transform(target.path, targetPose());
+    },
+    draw() {
+      const { width, height } = renderer.size();
+      lines.setAttribute("viewBox", `0 0 ${width} ${height}`);
+      for (const { node, line, grip } of drawn) {
+        const [x, y, z] = project(grip.place());
+        const ends = grip.path().map(project);
+        const turned = ends.length === 2 && Math.hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]) < 18; // towards us
+        const shown = z < 1 && !turned && x > 0 && y > 0 && x < width && y < height;
+        for (const part of [node, line]) part.style.visibility = shown ? "" : "hidden";
+        node.style.transform = `translate(-50%, -50%) translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+        line.setAttribute("points", ends.map(([px, py]) => `${px.toFixed(1)},${py.toFixed(1)}`).join(" "));
+      }
+    },
+    end() {
+      over = true;
+      clearTimeout(rests);
+      model.off("change:handle", listen);
+      model.off("change:drive", listen);
+    },
+  };
+}

@@ -1,0 +1,189 @@
+"""Held in the picture: the target, the tool and the links follow the mouse, a finger and the keys."""
+
+import numpy as np
+import pytest
+
+from coursekit import ik, robots, rotations
+from tests.browser.explorer import Explorer
+
+pytestmark = pytest.mark.browser
+
+# Where a point of the space frame is on the page, in pixels.
+ON_PAGE = """(p) => {
+    const { viewer, page } = document.querySelector(".ck-viewer").coursekit;
+    const point = new page.MeshCat.THREE.Vector3(...p);
+    viewer.scene_tree.find(["ck"]).object.localToWorld(point).project(viewer.camera);
+    const area = document.querySelector(".ck-pane").getBoundingClientRect();
+    return [area.left + ((point.x + 1) / 2) * area.width, area.top + ((1 - point.y) / 2) * area.height];
+}"""
+
+
+@pytest.fixture
+def opened(notebook, lab, request):
+    """Function: the explorer that this line of code opens, run and at rest."""
+
+    def run(name, robot, line):
+        code = "import numpy as np\nfrom coursekit import robots, view"
+        notebook.open(lab.write(f"{request.node.name}.ipynb", code, f"panel = {line}\npanel"))
+        notebook.run_all()
+        notebook.wait_view()
+        return Explorer(notebook, name, robot)
+
+    yield run
+    assert notebook.errors == []
+
+
+def handle(explorer, label):
+    return explorer.page.get_by_role("button", name=label, exact=True)
+
+
+def centre(explorer, label):
+    box = handle(explorer, label).bounding_box()
+    return np.array([box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
+
+
+def drag(explorer, start, way, steps=10):
+    """Drag with the mouse from a place of the page by `way` pixels, and let go."""
+    mouse = explorer.page.mouse
+    mouse.move(*start)
+    mouse.down()
+    for k in range(1, steps + 1):
+        mouse.move(*(np.array(start) + np.array(way) * k / steps))
+        explorer.page.wait_for_timeout(40)
+    mouse.up()
+    explorer.settle()
+
+
+def target(explorer):
+    pose, T = explorer.values("pose"), np.eye(4)
+    T[:3, :3], T[:3, 3] = rotations.from_zyx(pose[3:]), pose[:3]
+    return T
+
+
+def assert_all_solutions_are_at(explorer, T):
+    """The target's frame, the solid arm and every ghost of the page stand where the kinematics puts them."""
+    kr6 = explorer.robot
+    right = ik.analytic(kr6, T)
+    found = explorer.notebook.wait_transform("/ck/target", T)
+    np.testing.assert_allclose(found, T, rtol=0, atol=1e-9)
+    explorer.assert_arm_stands_at(np.array(explorer.kernel("scene.robots['robot'].theta.tolist()")))
+    ghosts = explorer.kernel("scene.robots.keys().__len__()") - 1
+    assert ghosts == right.exists.sum() - 1 == 7
+    for k in np.flatnonzero(right.exists):
+        if explorer.kernel(f"scene.robots.__contains__('branch{k}')"):
+            last = explorer.notebook.transform(f"/ck/branch{k}/6")
+            np.testing.assert_allclose(np.array(last) @ kr6.M, T, rtol=0, atol=1e-9)
+
+
+def test_arrows_and_rings_move_the_target_and_all_solutions(opened):
+    explorer = opened("inverse", robots.kuka_kr6(), "view.explore_inverse()")
+    before, label = target(explorer), "move {d} along its x"
+    assert handle(explorer, label).is_visible(), "the first paint shows a handle with a label"
+    start = centre(explorer, label)
+    tip = before[:3, 3] + 0.1 * before[:3, 0]
+    along = np.array(explorer.page.evaluate(ON_PAGE, tip.tolist()))
+    along = along - explorer.page.evaluate(ON_PAGE, before[:3, 3].tolist())
+    way = -40 * along / np.linalg.norm(along)
+    drag(explorer, start, way)
+    T = target(explorer)
+    moved = before[:3, :3].T @ (T[:3, 3] - before[:3, 3])
+    assert moved[0] < -0.03, "it went along its own x"
+    np.testing.assert_allclose(moved[1:], 0, atol=1e-6)
+    np.testing.assert_allclose(T[:3, :3], before[:3, :3], atol=1e-6)
+    np.testing.assert_allclose(centre(explorer, label), start + way, atol=5)
+    assert_all_solutions_are_at(explorer, T)
+
+    drag(explorer, centre(explorer, "turn {d} about its z"), (18, 10))
+    turned = target(explorer)
+    w = T[:3, :3].T @ np.array(rotations_between(T, turned))
+    assert abs(w[2]) > 0.05 and np.abs(w[:2]).max() < 1e-6, "it turned about its own z"
+    np.testing.assert_allclose(turned[:3, 3], T[:3, 3], atol=1e-6)
+    assert_all_solutions_are_at(explorer, turned)
+
+
+def rotations_between(A, B):
+    """The rotation vector that turns A to B, in the space frame."""
+    R = B[:3, :3] @ A[:3, :3].T
+    return 0.5 * np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+
+
+def test_a_handle_takes_keys(opened):
+    explorer = opened("inverse", robots.kuka_kr6(), "view.explore_inverse()")
+    before = target(explorer)
+    handle(explorer, "move {d} along its y").focus()
+    for key in ("ArrowRight", "ArrowRight", "ArrowLeft", "Shift+ArrowRight"):
+        explorer.page.keyboard.press(key)
+    explorer.settle()
+    moved = before[:3, :3].T @ (target(explorer)[:3, 3] - before[:3, 3])
+    np.testing.assert_allclose(moved, [0, 0.011, 0], atol=1e-8)
+    assert explorer.page.evaluate("document.activeElement.className") == "ck-handle y"
+    handle(explorer, "turn {d} about its y").press("ArrowLeft")
+    explorer.settle()
+    turned = before[:3, :3].T @ target(explorer)[:3, :3]
+    np.testing.assert_allclose(turned, rotations.roty(np.radians(-1)), atol=1e-8)
+    assert explorer.notebook.page.locator(".jp-Cell").count() == 2, "no key went to the notebook"
+
+
+def test_links_turn_their_joints_and_the_tool_can_be_pulled(opened):
+    kr6 = robots.kuka_kr6()
+    explorer = opened("conventions", kr6, "view.explore(robots.kuka_kr6())")
+    theta = explorer.values()
+    on_forearm = kr6.link_frames(theta)[3, :3, 3] * 0.5 + kr6.link_frames(theta)[2, :3, 3] * 0.5
+    camera = explorer.page.evaluate("() => document.querySelector('.ck-viewer').coursekit.viewer.camera.fov")
+    assert camera > 0
+    drag(explorer, explorer.page.evaluate(ON_PAGE, on_forearm.tolist()), (0, 40))
+    turned = explorer.values()
+    changed = np.flatnonzero(np.abs(turned - theta) > 1e-9)
+    assert len(changed) == 1 and changed[0] in (2, 3), "one joint, and that of the link"
+    assert abs(turned - theta).max() > 0.05
+    explorer.assert_arm_stands_at(turned)
+
+    explorer.page.get_by_role("button", name="reset", exact=True).click()
+    explorer.settle()
+    theta, start = explorer.values(), centre(explorer, "move the tool")
+    drag(explorer, start, (-30, 25))
+    np.testing.assert_allclose(centre(explorer, "move the tool"), start + [-30, 25], atol=4)
+    assert kr6.within_limits(explorer.values())
+    explorer.assert_arm_stands_at(explorer.values())
+
+    before = kr6.fk(explorer.values())[:3, 3]
+    handle(explorer, "move the tool").press("PageDown")
+    explorer.settle()
+    np.testing.assert_allclose(kr6.fk(explorer.values())[:3, 3] - before, [0, 0, -0.01], atol=1e-4)
+
+
+def test_a_drag_beside_the_arm_turns_the_picture(opened):
+    explorer = opened("conventions", robots.kuka_kr6(), "view.explore(robots.kuka_kr6())")
+    box = explorer.page.locator(".ck-pane").bounding_box()
+    where = "() => document.querySelector('.ck-viewer').coursekit.viewer.camera.position.toArray()"
+    theta, before = explorer.values(), np.array(explorer.page.evaluate(where))
+    drag(explorer, (box["x"] + 20, box["y"] + box["height"] - 30), (60, 0))
+    assert np.abs(np.array(explorer.page.evaluate(where)) - before).max() > 0.05
+    np.testing.assert_array_equal(explorer.values(), theta)
+
+
+def test_a_finger_moves_the_target(open_page, lab):
+    notebook = open_page(has_touch=True)
+    notebook.open(
+        lab.write("finger.ipynb", "from coursekit import view", "panel = view.explore_inverse()\npanel")
+    )
+    notebook.run_all()
+    notebook.wait_view()
+    explorer = Explorer(notebook, "inverse", robots.kuka_kr6())
+    before, start = target(explorer), centre(explorer, "move {d} along its z")
+    session = notebook.page.context.new_cdp_session(notebook.page)
+    for kind, by in (
+        ("touchStart", 0),
+        ("touchMove", 15),
+        ("touchMove", 30),
+        ("touchMove", 45),
+        ("touchEnd", None),
+    ):
+        points = [] if by is None else [{"x": float(start[0]), "y": float(start[1] + by)}]
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+        notebook.page.wait_for_timeout(60)
+    explorer.settle()
+    moved = before[:3, :3].T @ (target(explorer)[:3, 3] - before[:3, 3])
+    assert abs(moved[2]) > 0.02 and np.abs(moved[:2]).max() < 1e-6
+    assert_all_solutions_are_at(explorer, target(explorer))
+    assert notebook.errors == []
