@@ -210,6 +210,18 @@ def test_bad_input_gets_a_sentence(tmp_path, people):
         roster.read(people)
 
 
+def test_a_table_that_a_spreadsheet_wrote_anew_is_told_with_file_and_line(tmp_path):
+    collect.collect(tree(tmp_path / "in", {f"ann/{DH}": notebook("a")}), tmp_path / "out")
+    (row,) = collect.read_table(tmp_path / "out")
+    path = tmp_path / "out" / collect.TABLE
+    path.write_text(path.read_text("utf-8-sig").replace(row["submitted"], "27.11.2026 18:00"), "utf-8")
+    with pytest.raises(ValueError, match=r"collected.csv, line 2, submitted: .* not '27.11.2026 18:00'"):
+        collect.read_table(tmp_path / "out")
+    path.write_text("student;notebook\nann;x\n")
+    with pytest.raises(ValueError, match=r"collected.csv, line 1: the columns student, notebook"):
+        collect.read_table(tmp_path / "out")
+
+
 def test_the_table_says_where_everything_came_from(tmp_path, people):
     collect.collect(tree(tmp_path / "in", CANVAS), tmp_path / "out", people)
     with open(tmp_path / "out" / collect.TABLE, newline="", encoding="utf-8-sig") as file:

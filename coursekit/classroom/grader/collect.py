@@ -242,8 +242,18 @@ def read_table(folder: Path) -> list[dict[str, str]]:
     path = folder / TABLE
     if not path.exists():
         return []
-    with open(path, newline="", encoding="utf-8-sig") as file:
-        rows = list(csv.DictReader(file))
-    if rows and not set(COLUMNS) <= rows[0].keys():
-        raise ValueError(f"{path}, line 1: the columns {', '.join(COLUMNS)} are expected")
+    with open(path, newline="", encoding="utf-8-sig", errors="replace") as file:
+        table = csv.DictReader(file)
+        if not set(COLUMNS) <= set(table.fieldnames or ()):
+            raise ValueError(f"{path}, line 1: the columns {', '.join(COLUMNS)} are expected")
+        rows = []
+        for row in table:
+            rows.append({column: row[column] or "" for column in COLUMNS})
+            try:  # a spreadsheet may have written it its own way
+                datetime.fromisoformat(rows[-1]["submitted"] or "2026-01-01")
+            except ValueError:
+                raise ValueError(
+                    f"{path}, line {table.line_num}, submitted: a time such as 2026-11-27 18:00 is expected, "
+                    f"not {row['submitted']!r}"
+                ) from None
     return rows
