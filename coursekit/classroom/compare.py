@@ -27,6 +27,8 @@ def mask(kind: str, answer: np.ndarray, right: np.ndarray, tol: ArrayLike) -> np
     >>> import numpy as np
     >>> mask("angle", np.array([0.1, 0.2]), np.array([0.1 + 2 * np.pi, 0.3]), 1e-6).tolist()
     [True, False]
+    >>> mask("set", np.array([0.2, 0.1]), np.array([0.1, 0.3]), 1e-6).tolist()
+    [False, True]
     """
     if answer.shape != right.shape:
         raise ValueError(f"shapes {answer.shape} and {right.shape} cannot be compared")

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import base64
+import io
 import json
 
 import pytest
+from PIL import Image
 
 from coursekit.__main__ import main
 from coursekit.classroom.author import notebook
@@ -49,6 +52,21 @@ def test_a_cell_that_fails_stops_the_execution_and_nothing_is_written(tmp_path, 
         f"coursekit execute: {path}, ZeroDivisionError: division by zero; nothing was stored"
     )
     assert path.read_bytes() == before
+
+
+def test_a_stored_figure_has_at_most_256_colours_and_looks_the_same(tmp_path):
+    path, source = (
+        tmp_path / "figure.ipynb",
+        "import matplotlib.pyplot as plt\nplt.plot([1, 3, 2])\nplt.show()",
+    )
+    code = {"cell_type": "code", "id": "plot", "metadata": {}, "source": source, "outputs": []}
+    notebook.write(path, notebook.normalised({"cells": [{**code, "execution_count": None}]}))
+    notebook.execute(path)
+    (cell,) = notebook.read(path)["cells"]
+    (png,) = [o["data"]["image/png"] for o in cell["outputs"] if "image/png" in o.get("data", {})]
+    image = Image.open(io.BytesIO(base64.b64decode(png)))
+    assert image.mode == "P" and len(image.getcolors()) <= 256
+    assert image.size[0] > 300 and image.convert("RGB").getpixel((2, 2)) == (255, 255, 255)
 
 
 def test_a_written_notebook_reads_the_same(tmp_path):
