@@ -55,12 +55,8 @@ def test_a_cell_that_fails_stops_the_execution_and_nothing_is_written(tmp_path, 
 
 
 def test_a_stored_figure_has_at_most_256_colours_and_looks_the_same(tmp_path):
-    path, source = (
-        tmp_path / "figure.ipynb",
-        "import matplotlib.pyplot as plt\nplt.plot([1, 3, 2])\nplt.show()",
-    )
-    code = {"cell_type": "code", "id": "plot", "metadata": {}, "source": source, "outputs": []}
-    notebook.write(path, notebook.normalised({"cells": [{**code, "execution_count": None}]}))
+    path = tmp_path / "figure.ipynb"
+    notebook.write(path, document("import matplotlib.pyplot as plt\nplt.plot([1, 3, 2])\nplt.show()"))
     notebook.execute(path)
     (cell,) = notebook.read(path)["cells"]
     (png,) = [o["data"]["image/png"] for o in cell["outputs"] if "image/png" in o.get("data", {})]
