@@ -126,8 +126,11 @@ def _viva(options: Namespace) -> None:
 
 def _export(options: Namespace) -> None:
     from .classroom.author import nbgrader
+    from .classroom.author.verify import verify
 
-    nbgrader.export(options.out, _course(options))
+    course = _course(options)
+    verify(course)
+    nbgrader.export(options.out, course)
     print(f"wrote {options.out}\n{nbgrader.WARNING}")
 
 
