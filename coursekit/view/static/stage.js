@@ -123,6 +123,21 @@ function canvasRenderer(MeshCat) {
       if (canvas.width !== w) canvas.width = w;
       if (canvas.height !== h) canvas.height = h;
     },
+    // The page's first frame, a few pixels of it: its programs, reflections and shadow are made by the graphics process,
+    // which takes seconds without a GPU. Copying that picture would wait for all of it, and the page with it.
+    async warmUp(scene, camera) {
+      const gl = sharedRenderer(MeshCat), context = gl.getContext();
+      gl.shadowMap.enabled = gl.shadowMap.needsUpdate = facade.shadows;
+      gl.setViewport(0, 0, 8, 8);
+      gl.setScissor(0, 0, 8, 8);
+      gl.setScissorTest(true);
+      gl.render(scene, camera);
+      const done = context.fenceSync && context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
+      context.flush();
+      const waits = () => done && !context.isContextLost() && context.getSyncParameter(done, context.SYNC_STATUS) !== context.SIGNALED;
+      for (let tries = 0; waits() && tries < 1000; tries += 1) await new Promise((resolve) => setTimeout(resolve, 30));
+      if (done) context.deleteSync(done);
+    },
     render(scene, camera) {
       const gl = sharedRenderer(MeshCat);
       const w = canvas.width, h = canvas.height;
@@ -249,12 +264,20 @@ function makeStage(MeshCat, pane, quality) {
   };
   const stage = { viewer, renderer, beforeFrame: [], afterFrame: [], frames: 0, playing: () => false, resized() {} };
 
+  // Nothing is drawn before the page's first frame is warm: once for all its views.
+  const isCold = () => {
+    shared.warm = shared.warm || renderer.warmUp(viewer.scene, viewer.camera).catch(() => {}).then(() => {
+      shared.isWarm = true;
+      for (const other of shared.views) other.viewer.set_dirty();
+    });
+    return !shared.isWarm;
+  };
   const draw = (now) => {
     request = 0;
     if (dead) return;
     for (const act of stage.beforeFrame) act(now);
     // a cell out of sight is taken out of the page: it gets the pose, and is drawn when it comes back
-    if (viewer.needs_render && pane.isConnected && !shared.contextLost) {
+    if (viewer.needs_render && pane.isConnected && !shared.contextLost && !isCold()) {
       const wanted = levelNow();
       if (renderer.coarseness !== wanted) {
         renderer.coarseness = wanted;

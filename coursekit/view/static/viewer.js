@@ -40,8 +40,9 @@ export default function () {
         event.stopPropagation();
       });
       box.style.height = `${model.get("height")}px`;
-      const wait = element("p", { class: "ck-wait" }, "The 3D view is on its way …");
-      pane.append(wait);
+      const wait = element("div", { class: "ck-first" }, element("p", { class: "ck-wait" }, "The 3D view is on its way …"));
+      box.append(wait);
+      const uncover = page().isWarm ? () => wait.remove() : showFirst(model, pane, wait, views);
       el.classList.add("ck-root");
       el.append(box, silence);
       const unwatch = watchKernel(model, silence);
@@ -75,10 +76,10 @@ export default function () {
       let MeshCat, stage;
       try {
         MeshCat = await page().meshcat;
-        if (signal && signal.aborted) return;
-        wait.remove();
+        if (signal && signal.aborted) return uncover();
         stage = makeStage(MeshCat, pane, model.get("quality"));
       } catch (error) {
+        uncover();
         const end = showPicture(model, pane, views, player, error);
         return () => {
           unwatch();
@@ -131,7 +132,7 @@ export default function () {
         slid = false;
         player.tick(now);
       });
-      stage.afterFrame.push(labels.place, handles.draw);
+      stage.afterFrame.push(labels.place, handles.draw, uncover);
 
       const onPose = () => {
         moving = model.get("moving").map(splitPath);
@@ -209,6 +210,7 @@ export default function () {
         unwatch();
         follower.end();
         handles.end();
+        uncover();
         delete box.coursekit;
         el.replaceChildren();
         views.delete(view);
@@ -227,6 +229,26 @@ function keys(key, camera, player, home) {
   }[key];
   if (act) act();
   return Boolean(act);
+}
+
+// The first view of a page waits for its script and its shaders: meanwhile the kernel's own picture stands over the pane.
+// Gives what takes it away, once there is something better.
+function showFirst(model, pane, cover, views) {
+  const view = {
+    change() {},
+    picture(bytes) {
+      const image = element("img", { class: "ck-cover", alt: "" });
+      image.onload = () => URL.revokeObjectURL(image.src);
+      image.src = URL.createObjectURL(new Blob([bytes], { type: "image/png" }));
+      cover.replaceChildren(image);
+    },
+  };
+  views.add(view);
+  model.send({ type: "need_png", width: pane.clientWidth || 640, height: pane.clientHeight || 420 });
+  return () => {
+    views.delete(view);
+    cover.remove();
+  };
 }
 
 // No WebGL, or a policy that forbids the bundle: the picture the kernel draws, renewed at most twice a second.
