@@ -137,7 +137,7 @@ def _export(options: Namespace) -> None:
 def _site(options: Namespace) -> None:
     from .site import write  # named, so that it is missed where students' version has none
 
-    print(write(options.out, _course(options)))
+    print(write(options.out, _course(options), options.pyodide))
 
 
 def _samples(options: Namespace) -> None:
@@ -259,8 +259,11 @@ COMMANDS = {
     ),
     "site": Command(
         _site,
-        "write the course as a folder for a web server: pages that move",
-        (_argument("out", type=Path, help="a folder that does not exist yet"),),
+        "write the course as a folder for a web server: pages that move, and Python in the browser",
+        (
+            _argument("out", type=Path, help="a folder that does not exist yet"),
+            _argument("--pyodide", type=Path, help="Pyodide's unpacked release, to run the course there"),
+        ),
     ),
     "samples": Command(_samples, "write the tables that `check` uses, from solved notebooks and mistakes"),
     "execute": Command(

@@ -45,11 +45,11 @@ def picture(exercise: Exercise, found: Verdict, examples: list[Example], attempt
 
 
 def _drawn(right: dict, mine: dict) -> bytes:
+    from coursekit.view.figures import INK, palette  # isort: skip  # first: it keeps matplotlib quiet
+
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
-
-    from coursekit.view.figures import INK, palette
 
     middle, half, near = _room(right, mine)
     figure = Figure(figsize=SIZE, layout="constrained")

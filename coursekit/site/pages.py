@@ -94,6 +94,11 @@ def write(course: Path, out: Path, title: str, run: str | None = None) -> list[P
         body = _Body(page.name, out).of(shown.run(path, course))
         text = framed(page.title, body, _bar(page, pages, run), page.name)
         (out / f"{page.name}.html").write_text(text, encoding="utf-8")
+    for path in sorted((course / "notebooks").glob("*.md")):  # what notebooks link to
+        body = f'<section class="words">{markdown(path.read_text(encoding="utf-8"))}</section>'
+        up = '<a href="index.html">All notebooks</a>'
+        text = framed(path.stem.capitalize(), body, up, path.stem)
+        (out / f"{path.stem}.html").write_text(text, encoding="utf-8")
     cards = "\n".join(_card(page, run) for page in pages)
     template = (STATIC / "index.html").read_text(encoding="utf-8")
     how = "run" if run else "read"
@@ -180,7 +185,8 @@ class _Body:
 
 def markdown(source: str) -> str:
     """A cell of text as HTML, formulas as they are."""
-    return re.sub(r'<a class="anchor-link".*?</a>', "", markdown2html(source))
+    text = re.sub(r'<a class="anchor-link".*?</a>', "", markdown2html(source))
+    return re.sub(r'href="(\w+)\.md', r'href="\1.html', text)
 
 
 def _bar(page: Page, pages: list[Page], run: str | None) -> str:

@@ -15,9 +15,13 @@ says which configuration it shows, the Panel puts the sliders there, and all goe
 Everything here is imported when it is first used: `from coursekit import view` alone loads no widget code.
 """
 
+import logging
 from typing import Any
 
 from .. import _module
+
+# On its first day on a machine matplotlib warns that it builds a font cache: nothing for a student to read.
+logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)
 
 _WHERE = {
     "explore": "explorers.conventions",

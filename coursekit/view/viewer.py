@@ -280,4 +280,6 @@ def mimebundle(widget: ipywidgets.Widget, text: str, scene: Scene, height: int) 
             "model_id": widget.model_id,
         },
     }
-    return data, {"image/png": {"alt": text}}
+    # What anywidget would say besides: Google Colab asks in the metadata for its loader.
+    _, metadata = anywidget.AnyWidget._repr_mimebundle_(widget) or ({}, {})
+    return data, {**metadata, "image/png": {"alt": text}}

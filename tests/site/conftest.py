@@ -6,12 +6,16 @@ reason; with CI=true they fail instead.
 
 import os
 from importlib.util import find_spec
+from pathlib import Path
 
 import pytest
 
 from coursekit import site
 from tests.browser.conftest import browser, pytest_collection_modifyitems  # noqa: F401
+from tests.site.pyodide import Unavailable, take
 from tests.site.server import Served
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def missing(reason):
@@ -19,17 +23,39 @@ def missing(reason):
 
 
 @pytest.fixture(scope="session")
-def pages(tmp_path_factory):
-    """The folder of a site without Pyodide."""
-    if not find_spec("jupyter_server_mathjax"):
+def pyodide(pytestconfig):
+    """Pyodide's files: taken from the registries in CI, elsewhere used if they are there."""
+    folder = pytestconfig.rootpath / ".pytest_cache" / "pyodide"
+    if os.environ.get("CI") != "true" and not (folder / "complete").exists():
+        pytest.skip(f"Pyodide's files are not here: python tests/site/pyodide.py {folder.relative_to(ROOT)}")
+    try:
+        return take(folder)
+    except Unavailable as reason:
+        pytest.fail(f"Pyodide's files cannot be had: {reason}")
+
+
+@pytest.fixture(scope="session")
+def pages(request, tmp_path_factory):
+    """The folder of a site; with what runs in the browser if Pyodide's files are here, or must be (in CI)."""
+    if not find_spec("jupyter_server_mathjax") or not find_spec("jupyterlite_core"):
         missing("the site's packages are not installed (pip install -r coursekit/site/requirements.txt)")
     out = tmp_path_factory.mktemp("site") / "out"
-    assert "pages to read" in site.write(out)
+    try:
+        files = request.getfixturevalue("pyodide")
+    except pytest.skip.Exception:
+        files = None
+    site.write(out, pyodide=files)
     return out
 
 
 @pytest.fixture(scope="session")
+def run(pyodide, pages):
+    """What runs in the browser, in that folder."""
+    return pages / "run"
+
+
+@pytest.fixture(scope="session")
 def served(pages):
-    """Such a site on a plain server."""
+    """That site on a plain server."""
     with Served(pages) as server:
         yield server

@@ -3,12 +3,13 @@
 import gzip
 import subprocess
 import sys
+import types
 
 import numpy as np
 import pytest
 import umsgpack
 
-from coursekit import robots
+from coursekit import robots, view
 from coursekit.view import meshcat
 from coursekit.view.meshcat import bundle, column_major
 from coursekit.view.page import to_html
@@ -203,3 +204,20 @@ def test_the_page_may_ask_for_the_script_and_for_a_picture(viewer):
     assert (first["type"], second["type"]) == ("bundle", "png")
     assert b"MeshCat" in gzip.decompress(script)
     assert picture.startswith(b"\x89PNG")
+
+
+def test_colab_is_told_where_its_loader_of_widgets_is(monkeypatch):
+    colab = types.SimpleNamespace(
+        enable_custom_widget_manager=lambda: None,
+        _widgets=types.SimpleNamespace(_installed_url="https://colab/loader.js"),
+    )
+    monkeypatch.setitem(sys.modules, "google.colab.output", colab)
+    panel = view.explore(robots.planar_2r())
+    try:
+        for shown in (panel, panel.viewer):
+            _, metadata = shown._repr_mimebundle_()
+            told = metadata["application/vnd.jupyter.widget-view+json"]["colab"]
+            assert told == {"custom_widget_manager": {"url": "https://colab/loader.js"}}
+            assert metadata["image/png"]["alt"]
+    finally:
+        panel.close()

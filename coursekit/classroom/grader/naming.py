@@ -5,6 +5,7 @@ The forms, as the systems document them:
     Canvas     lastnamefirstname_LATE_12345_67890_file-1.ipynb    (user, attachment; -1: a second attempt)
     Moodle     Name_123456_assignsubmission_file_/file.ipynb      (participant); without folders file follows
     nbgrader   submitted/STUDENT/ASSIGNMENT/file.ipynb, or in the exchange STUDENT+ASSIGNMENT+TIME+.../
+    the site   coursekit-work-STUDENT.zip
     others     STUDENT/.../file.ipynb, or STUDENT.zip
 """
 
@@ -61,7 +62,7 @@ def told(parts: tuple[str, ...]) -> Told:
             file, late = found["file"] if part == last else last, bool(found["late"])
             attempt = (int(found["attempt"]),)
             return Told((found["who"], found["user"]), file, attempt, late, canvas=found["user"])
-    names = tuple(re.sub(r"\.zip$", "", part, flags=re.I) for part in folders)
+    names = tuple(re.sub(r"^coursekit-work-|( \(\d+\))?\.zip$", "", part, flags=re.I) for part in folders)
     return Told(tuple(name for name in names if name.lower() not in WRAPPERS), last)
 
 

@@ -1,0 +1,138 @@
+"""JupyterLab with Python in the browser: JupyterLite, Pyodide's files and the students' notebooks."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from importlib import util
+from pathlib import Path
+
+from . import wheels
+
+# JupyterLab's parts that the explorers need, as this environment has them.
+_EXTENSIONS = ("@jupyter-widgets/jupyterlab-manager", "@jupyterlite/pyodide-kernel-extension", "anywidget")
+_KERNEL = "@jupyterlite/pyodide-kernel-extension"
+# What is loaded before JupyterLab opens; the rest of it comes, and is kept, when it is used.
+_FIRST = re.compile(
+    r"^(static/pyodide|lab|files|api)/|^build/jlab_core\.|^extensions/.*remoteEntry|^[^/]*\.json$"
+)
+REQUIREMENTS = Path(__file__).with_name("requirements.txt")
+STATIC = Path(__file__).with_name("static")
+
+
+# Where "Run it here" leads, with the name of a notebook.
+ADDRESS = "run/start.html?path={}.ipynb"
+# Whose work is shipped with it, besides that of the pages.
+SHIPPED = {
+    "jupyterlite-core": "JupyterLab; the licences of its parts: run/build/third-party-licenses.json",
+    "jupyterlite-pyodide-kernel": "what joins JupyterLab and Python in a browser",
+    **dict.fromkeys(
+        ("ipywidgets", "jupyterlab-widgets", "anywidget", "sympy", "mpmath", "psygnal"), "used by the course"
+    ),
+    **dict.fromkeys(("comm", "typing-extensions", "u-msgpack-python"), "used by the course"),
+}
+
+
+def ready(pyodide: Path) -> Path:
+    """Where JupyterLab's extensions lie; ValueError if a package or a file is missing that a build needs."""
+    wheels.official(pyodide)
+    if util.find_spec("jupyterlite_core") is None:
+        raise ValueError(
+            "JupyterLab in the browser needs packages that are not installed: "
+            f"python -m pip install -r {REQUIREMENTS.as_posix()}"
+        )
+    return Path(sys.prefix) / "share" / "jupyter" / "labextensions"
+
+
+def write(course: Path, pyodide: Path, version: str, title: str, out: Path) -> None:
+    """Write the application into a new folder.
+
+    Parameters
+    ----------
+    course : Path
+        A folder that `coursekit release` has written.
+    pyodide : Path
+        Pyodide's files, see `wheels`.
+    version, title : str
+        Of the course.
+    """
+    extensions = ready(pyodide)
+    with tempfile.TemporaryDirectory() as folder:
+        work = Path(folder)
+        pypi = extensions / _KERNEL / "static" / "pypi"
+        (work / "lite").mkdir()
+        python = work / "pyodide"
+        packages = wheels.write(pyodide, pypi, course, version, python)
+        notebooks = sorted((course / "notebooks").glob("*.ipynb"))
+        wheels.check_imports(packages, python / packages["coursekit"]["file_name"], notebooks)
+        for name in _EXTENSIONS:
+            leave = shutil.ignore_patterns("*.map", "pypi")
+            shutil.copytree(extensions / name, work / "labextensions" / name, ignore=leave)
+        shutil.copytree(STATIC / "lab", work / "labextensions" / "coursekit-site")
+        _settings(work / "lite", title)
+        _build(work, course / "notebooks")
+        shutil.move(python, work / "built" / "static" / "pyodide")
+        shutil.move(work / "built", out)
+    _finish(out)
+
+
+def _settings(lite: Path, title: str) -> None:
+    kernel = {
+        "pyodideUrl": "./static/pyodide/pyodide.js",
+        "disablePyPIFallback": True,
+        "loadPyodideOptions": {
+            "packages": list(wheels.AT_ONCE),
+            "env": {"MPLBACKEND": "module://matplotlib_inline.backend_inline"},
+        },
+    }
+    config = {
+        "appName": title,
+        "exposeAppInBrowser": True,
+        "enableServiceWorkerCache": "false",  # ours keeps what is to be kept
+        "disabledExtensions": [
+            "@jupyterlab/apputils-extension:announcements",
+            "@jupyterlite/application-extension:share-file",
+        ],
+        "litePluginSettings": {f"{_KERNEL}:kernel": kernel},
+    }
+    text = json.dumps({"jupyter-lite-schema-version": 0, "jupyter-config-data": config}, indent=1)
+    (lite / "jupyter-lite.json").write_text(text, encoding="utf-8")
+    quiet = {"fetchNews": "false", "checkForUpdates": False}
+    overrides = {"@jupyterlab/apputils-extension:notification": quiet}
+    (lite / "overrides.json").write_text(json.dumps(overrides), encoding="utf-8")
+
+
+def _build(work: Path, notebooks: Path) -> None:
+    command = [sys.executable, "-m", "jupyterlite_core", "build", "--no-sourcemaps"]
+    command += ["--apps", "lab", "--lite-dir", str(work / "lite"), "--contents", str(notebooks)]
+    command += ["--output-dir", str(work / "built"), "--ignore-sys-prefix", "federated_extensions"]
+    command += [f"--FederatedExtensionAddon.extra_labextensions_path={work / 'labextensions'}"]
+    environment = {**os.environ, "PYTHONWARNINGS": "ignore"}
+    done = subprocess.run(command, cwd=work / "lite", env=environment, capture_output=True, text=True)
+    if done.returncode:
+        raise ValueError(f"JupyterLite could not be built:\n{(done.stdout + done.stderr)[-3000:]}")
+
+
+def _finish(out: Path) -> None:
+    """Add the page that loads everything and the list of what that is; take away what nobody reads."""
+    for path in out.rglob("*.map"):
+        path.unlink()
+    (out / "service-worker.js").rename(out / "jupyterlite-worker.js")
+    for path in (STATIC / "run").iterdir():
+        shutil.copy(path, out / path.name)
+    files = {}
+    for path in sorted(path for path in out.rglob("*") if path.is_file()):
+        data = path.read_bytes()
+        name = path.relative_to(out).as_posix()
+        files[name] = {"size": len(data), "sum": hashlib.sha256(data).hexdigest()[:16]}
+    del files["service-worker.js"]  # a browser looks after this one itself
+    first = [name for name in files if _FIRST.search(name)]
+    version = hashlib.sha256(json.dumps(files).encode()).hexdigest()[:16]
+    listed = {"version": version, "first": first, "files": files}
+    (out / "files.json").write_text(json.dumps(listed), encoding="utf-8")

@@ -1,0 +1,315 @@
+// JupyterLab's part of the site: says where the work is, brings it out of the browser and back as one zip, takes in a
+// new release, and says what does not work here. Written by hand as what JupyterLab loads: no build.
+(() => {
+  // --- zip: files stored as they are; read also where another program has packed them
+  const CRC = Uint32Array.from({ length: 256 }, (_, n) => {
+    for (let k = 0; k < 8; k += 1) n = n & 1 ? (n >>> 1) ^ 0xedb88320 : n >>> 1;
+    return n;
+  });
+  const crc32 = (bytes) => {
+    let c = 0xffffffff;
+    for (const byte of bytes) c = CRC[(c ^ byte) & 255] ^ (c >>> 8);
+    return (c ^ 0xffffffff) >>> 0;
+  };
+
+  function packed(fields) { // [number, bytes] little-endian, or bytes as they are
+    const parts = fields.map((field) => (field instanceof Uint8Array
+      ? field : Uint8Array.from({ length: field[1] }, (_, i) => Math.floor(field[0] / 256 ** i) & 255)));
+    const whole = new Uint8Array(parts.reduce((sum, part) => sum + part.length, 0));
+    let at = 0;
+    for (const part of parts) { whole.set(part, at); at += part.length; }
+    return whole;
+  }
+
+  function zip(files, now = new Date()) { // {name: text} -> bytes
+    const time = (now.getHours() << 11) | (now.getMinutes() << 5) | (now.getSeconds() >> 1);
+    const date = ((now.getFullYear() - 1980) << 9) | ((now.getMonth() + 1) << 5) | now.getDate();
+    const bodies = [], index = [];
+    let at = 0;
+    for (const [name, text] of Object.entries(files)) {
+      const title = new TextEncoder().encode(name), data = new TextEncoder().encode(text);
+      const common = [[20, 2], [0x800, 2], [0, 2], [time, 2], [date, 2], [crc32(data), 4], [data.length, 4], [data.length, 4], [title.length, 2], [0, 2]];
+      bodies.push(packed([[0x04034b50, 4], ...common, title, data]));
+      index.push(packed([[0x02014b50, 4], [20, 2], ...common, [0, 2], [0, 2], [0, 2], [0, 4], [at, 4], title]));
+      at += bodies.at(-1).length;
+    }
+    const list = packed(index);
+    const end = packed([[0x06054b50, 4], [0, 4], [index.length, 2], [index.length, 2], [list.length, 4], [at, 4], [0, 2]]);
+    return packed([...bodies, list, end]);
+  }
+
+  async function unzip(bytes) { // bytes -> {name: text}
+    const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+    let end = bytes.length - 22;
+    while (end >= 0 && view.getUint32(end, true) !== 0x06054b50) end -= 1;
+    if (end < 0) throw new Error("this is no zip");
+    const files = {};
+    let at = view.getUint32(end + 16, true);
+    for (let n = view.getUint16(end + 10, true); n > 0; n -= 1) {
+      const [method, size, title, extra, note] = [10, 20, 28, 30, 32].map((k) => (k === 20 ? view.getUint32(at + k, true) : view.getUint16(at + k, true)));
+      const name = new TextDecoder().decode(bytes.subarray(at + 46, at + 46 + title));
+      const from = view.getUint32(at + 42, true);
+      const start = from + 30 + view.getUint16(from + 26, true) + view.getUint16(from + 28, true);
+      let data = new Blob([bytes.subarray(start, start + size)]);
+      if (method === 8) data = await new Response(data.stream().pipeThrough(new DecompressionStream("deflate-raw"))).blob();
+      if (!name.endsWith("/")) files[name] = await data.text();
+      at += 46 + title + extra + note;
+    }
+    return files;
+  }
+
+  // --- what is in the browser, and what the site gave
+  const LIST = "coursekit-work.json";
+  const text = (content) => `${JSON.stringify(content, null, 1)}\n`;
+  const sources = (notebook) => JSON.stringify(notebook.cells.map((cell) => [cell.cell_type, [].concat(cell.source).join("")]));
+  const lines = (source) => [].concat(source).join("").split(/(?<=\n)/).filter((line) => line);
+
+  function normalized(notebook) { // sources as lists of lines, as they are stored elsewhere
+    return { ...notebook, cells: notebook.cells.map((cell) => ({ ...cell, source: lines(cell.source) })) };
+  }
+
+  async function released(root, path) {
+    const answer = await fetch(`${root}files/${path.split("/").map(encodeURIComponent).join("/")}`).catch(() => null);
+    return answer && answer.ok ? answer.json().catch(() => null) : null;
+  }
+
+  async function* notebooks(contents, folder = "") {
+    const { content } = await contents.get(folder, { content: true });
+    for (const entry of content) {
+      if (entry.type === "directory") yield* notebooks(contents, entry.path);
+      if (entry.type === "notebook") yield entry.path;
+    }
+  }
+
+  async function written(contents, root) { // what differs from what the site gave
+    const files = {};
+    for await (const path of notebooks(contents)) {
+      const { content } = await contents.get(path, { content: true, type: "notebook", format: "json" });
+      const given = await released(root, path);
+      if (!given || sources(given) !== sources(content)) files[path] = normalized(content);
+    }
+    return files;
+  }
+
+  function download(bytes, name) {
+    const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(new Blob([bytes], { type: "application/zip" })), download: name });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+  }
+
+  // --- the bar at the top
+  const STYLE = `#main { top: var(--ck-bar, 34px) !important; }
+#ck-bar { position: absolute; inset: 0 0 auto 0; z-index: 2; display: flex; flex-flow: row wrap; align-items: center; gap: 2px 10px; padding: 4px 10px;
+  font: 13px/1.5 var(--jp-ui-font-family, system-ui, sans-serif); color: var(--jp-ui-font-color1); background: var(--jp-layout-color2);
+  border-bottom: 1px solid var(--jp-border-color1); box-sizing: border-box; }
+#ck-bar button, #ck-bar summary { font: inherit; color: var(--jp-ui-font-color1); background: var(--jp-layout-color1); border: 1px solid var(--jp-border-color1);
+  border-radius: 4px; padding: 1px 8px; cursor: pointer; }
+#ck-bar details { position: relative; }
+#ck-bar details div { position: absolute; right: 0; top: 28px; width: min(30rem, 90vw); padding: 6px 14px; background: var(--jp-layout-color1);
+  border: 1px solid var(--jp-border-color1); border-radius: 4px; box-shadow: 0 4px 18px #0004; max-height: 70vh; overflow: auto; }
+#ck-bar .ck-state { margin-left: auto; }
+#ck-bar :focus-visible { outline: 2px solid var(--jp-brand-color1); }`;
+
+  const LIMITS = `<p><b>The stop button</b> cannot interrupt Python here. <code>check</code> ends an endless loop by itself. For any other:
+<button data-do="again">Restart and run again what you ran</button></p>
+<p><b>One notebook at a time.</b> Each running one needs several hundred MB; close the kernel of one before you start the next
+(menu Kernel, Shut Down).</p>
+<p><b>Safari</b> was not tried. Chromium and Firefox were.</p>
+<p><b>Grading</b> is not here. Hand in the file that "Save a copy" gives you.</p>
+<p><b>A browser may clear its store</b> when the disk is full or when it is told to. A copy outside is safe.</p>`;
+
+  function make(tag, attributes = {}, ...children) {
+    const node = document.createElement(tag);
+    for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+    node.append(...children);
+    return node;
+  }
+
+  function activate(app) {
+    const config = JSON.parse(document.getElementById("jupyter-config-data").textContent);
+    const root = new URL(config.baseUrl || "./", location.href).href;
+    const named = new URLSearchParams(location.search).has("path");
+    const contents = app.serviceManager.contents;
+    const memory = { get: (name) => localStorage.getItem(`coursekit.${name}.${root}`), set: (name, value) => localStorage.setItem(`coursekit.${name}.${root}`, value) };
+
+    const where = make("span", { class: "ck-where" });
+    const state = make("span", { class: "ck-state", role: "status" });
+    const news = make("span", { class: "ck-news" });
+    const save = make("button", { "data-do": "save" }, "Save a copy of all my work");
+    const bring = make("button", { "data-do": "bring" }, "Bring work back");
+    const file = make("input", { type: "file", accept: ".zip", hidden: "", "aria-label": "a zip saved here before" });
+    const limits = make("details", {}, make("summary", {}, "What does not work here"));
+    limits.append(make("div"));
+    limits.lastChild.innerHTML = LIMITS;
+    const bar = make("div", { id: "ck-bar", role: "region", "aria-label": "Where your work is" }, where, save, bring, file, limits, news, state);
+    document.head.append(make("style", {}, STYLE));
+    document.body.append(bar);
+    new ResizeObserver(() => {
+      document.documentElement.style.setProperty("--ck-bar", `${bar.offsetHeight}px`);
+      dispatchEvent(new Event("resize"));
+    }).observe(bar);
+
+    const tell = () => {
+      const last = memory.get("saved");
+      const when = last ? new Date(last).toLocaleString() : "never";
+      where.textContent = `Your work stays in this browser only. Last saved outside the browser: ${when}.`;
+    };
+    tell();
+
+    const doing = {
+      async save() {
+        await app.commands.execute("docmanager:save-all");
+        const files = await written(contents, root);
+        if (!Object.keys(files).length) return say("There is nothing of yours to save yet.");
+        const asked = prompt("Your name or student number, for the name of the file:", memory.get("name") || "");
+        if (asked === null) return undefined;
+        const name = asked.trim().replace(/[^\p{L}\p{N}._-]+/gu, "-") || "me";
+        memory.set("name", asked.trim());
+        const now = new Date();
+        const about = { name: asked.trim(), saved: now.toISOString(), site: root, notebooks: Object.keys(files).sort() };
+        const all = { [LIST]: text(about) };
+        for (const [path, content] of Object.entries(files)) all[path] = text(content);
+        download(zip(all, now), `coursekit-work-${name}.zip`);
+        memory.set("saved", now.toISOString());
+        tell();
+        return say(`Saved: ${about.notebooks.join(", ")}`);
+      },
+      bring() { file.value = ""; file.click(); },
+      async again() {
+        await app.commands.execute("kernelmenu:restart-and-runall").catch(() => app.commands.execute("notebook:restart-run-all"));
+      },
+      update: () => takeIn(),
+    };
+
+    function say(words) { state.textContent = words; }
+    const guarded = (act) => Promise.resolve().then(act).catch((error) => say(`That did not work: ${error.message}`));
+    bar.addEventListener("click", ({ target }) => {
+      const name = target.dataset && target.dataset.do;
+      if (doing[name]) guarded(doing[name]);
+    });
+
+    async function folder(path) {
+      if (!path) return;
+      await contents.get(path, { content: false }).catch(async () => {
+        const made = await contents.newUntitled({ path: path.split("/").slice(0, -1).join("/"), type: "directory" });
+        await contents.rename(made.path, path);
+      });
+    }
+
+    async function put(path, notebook) {
+      await folder(path.split("/").slice(0, -1).join("/"));
+      await contents.save(path, { type: "notebook", format: "json", content: notebook });
+    }
+
+    // Nothing that is here is lost: what differs goes to a folder named after this minute.
+    async function aside(path, content) {
+      const minute = new Date().toISOString().slice(0, 16).replace("T", " ").replace(":", ".");
+      await put(`earlier ${minute}/${path.split("/").at(-1)}`, content);
+    }
+
+    file.addEventListener("change", () => guarded(async () => {
+      const files = await unzip(new Uint8Array(await file.files[0].arrayBuffer()));
+      const names = Object.keys(files).filter((name) => name.endsWith(".ipynb") && !name.split("/").includes(".."));
+      if (!names.length) throw new Error("no notebook is in this file");
+      await app.commands.execute("docmanager:save-all");
+      const mine = await written(contents, root);
+      const documents = names.map((name) => [name, JSON.parse(files[name])]); // all of them can be read, or nothing is done
+      for (const [name, document] of documents) {
+        if (mine[name] && sources(mine[name]) !== sources(document)) await aside(name, mine[name]);
+        await put(name, document);
+      }
+      sessionStorage.setItem("coursekit.said", `Brought back: ${names.join(", ")}`);
+      openAgain();
+    }));
+    say(sessionStorage.getItem("coursekit.said") || "");
+    sessionStorage.removeItem("coursekit.said");
+
+    // --- a new release: what is written stays, the corrected text comes in (coursekit.classroom.merge, in the kernel)
+    const mark = (notebook) => ((notebook && notebook.metadata && notebook.metadata.coursekit) || {}).version;
+
+    async function outdated() {
+      const found = [];
+      for await (const path of notebooks(contents)) {
+        if (path.includes("/")) continue;
+        const given = await released(root, path);
+        const { content } = await contents.get(path, { content: true, type: "notebook", format: "json" });
+        if (given && mark(given) && mark(content) !== mark(given)) found.push([path, content, given]);
+      }
+      return found;
+    }
+
+    async function lookForNews() {
+      const found = await outdated();
+      if (!found.length) return;
+      news.replaceChildren(`The course was corrected (${found.map(([path]) => path.slice(0, 2)).join(", ")}); yours is as before. `,
+        make("button", { "data-do": "update" }, "Take the corrections in, keep what I wrote"));
+    }
+
+    async function takeIn() {
+      const { currentWidget } = app.shell;
+      const session = currentWidget && currentWidget.context && currentWidget.context.sessionContext.session;
+      if (!session || !session.kernel) throw new Error("open a notebook and wait until Python has started");
+      await app.commands.execute("docmanager:save-all");
+      for (const [path, mine, given] of await outdated()) {
+        const code = `import json as _j\nfrom coursekit.classroom.merge import merge as _m\n`
+          + `_d, _c = _m(*map(_j.loads, (${JSON.stringify(JSON.stringify(normal(mine)))}, ${JSON.stringify(JSON.stringify(normal(given)))})))\nprint(_j.dumps(_d))`;
+        const future = session.kernel.requestExecute({ code, store_history: false });
+        let out = "", failed = "";
+        future.onIOPub = ({ header, content }) => {
+          if (header.msg_type === "stream" && content.name === "stdout") out += content.text;
+          if (header.msg_type === "error") failed = `${content.ename}: ${content.evalue}`;
+        };
+        await future.done;
+        if (failed) throw new Error(`${path}: ${failed}`);
+        await aside(path, normalized(mine));
+        await put(path, normalized(JSON.parse(out)));
+      }
+      sessionStorage.setItem("coursekit.said", "The corrections are in; what you wrote is kept, and a copy of before lies in the folder \"earlier\".");
+      openAgain();
+    }
+    const normal = (notebook) => ({ ...notebook, cells: notebook.cells.map((cell) => ({ ...cell, source: [].concat(cell.source).join("") })) });
+
+    // --- Python's start, in words; a kernel that fails says it in a log that nobody opens
+    function watchStart() {
+      const begun = Date.now();
+      const timer = setInterval(() => {
+        const widget = app.shell.currentWidget;
+        const session = widget && widget.context && widget.context.sessionContext && widget.context.sessionContext.session;
+        const status = session && session.kernel && session.kernel.status;
+        const seconds = Math.round((Date.now() - begun) / 1000);
+        if (status === "idle" || status === "busy") {
+          clearInterval(timer);
+          if (/^Python starts/.test(state.textContent)) say("Python is ready.");
+        } else if (!state.textContent || /^Python starts/.test(state.textContent)) {
+          const slow = seconds > 180 ? " This is longer than usual: reload the page, or try another browser." : "";
+          say(`Python starts (${seconds} s; the first time about a minute).${slow}`);
+        }
+      }, 1000);
+    }
+
+    // --- a page that is loaded again opens the notebook that was open (JupyterLab takes its name out of the address)
+    const path = () => app.shell.currentWidget && app.shell.currentWidget.context && app.shell.currentWidget.context.path;
+    const remember = () => { if (/\.ipynb$/.test(path() || "")) memory.set("open", path()); };
+    function openAgain() {
+      const last = memory.get("open");
+      location.assign(`${root}lab/index.html${last ? `?path=${encodeURIComponent(last)}` : ""}`);
+    }
+    async function reopen() {
+      const last = memory.get("open");
+      if (named || !last || [...app.shell.widgets("main")].some((widget) => widget.context)) return;
+      await app.commands.execute("docmanager:open", { path: last });
+    }
+
+    app.restored.then(() => {
+      app.shell.currentChanged.connect(remember);
+      remember();
+      watchStart();
+      return guarded(reopen).then(() => guarded(lookForNews));
+    });
+    window.coursekitWork = { zip, unzip }; // for tests
+  }
+
+  const plugin = { id: "coursekit-site:work", autoStart: true, activate };
+  window._JUPYTERLAB = window._JUPYTERLAB || {};
+  window._JUPYTERLAB["coursekit-site"] = { init() {}, get: async () => () => ({ __esModule: true, default: plugin }) };
+})();

@@ -1,0 +1,246 @@
+"""The course in a browser that reaches one plain server and nothing else, as a student has it."""
+
+import csv
+import json
+import shutil
+import zipfile
+
+import pytest
+
+from coursekit.classroom.author import notebook
+from coursekit.classroom.course import the_course
+from coursekit.classroom.grader import collect, grade
+from tests.classroom import leaks
+from tests.site.server import Served, Visit
+
+pytestmark = pytest.mark.browser
+
+NAME = "01_dh_vs_poe.ipynb"
+OPEN = """() => window.jupyterapp?.shell.currentWidget?.context?.isReady
+              && window.jupyterapp.shell.currentWidget.context.sessionContext.session?.kernel"""
+READY = """() => window.jupyterapp.shell.currentWidget
+               .context.sessionContext.session?.kernel?.status === "idle" """
+FILES = """async () => {
+  const { content } = await window.jupyterapp.serviceManager.contents.get("", { content: true });
+  return content.map((entry) => entry.name);
+}"""
+WATCH = """addEventListener("DOMContentLoaded", () => {
+  const node = document.getElementById("said");
+  if (node) new MutationObserver(() => heard(node.textContent)).observe(node, { childList: true });
+})"""
+RUN = """async ([id, source]) => {
+  const notebook = window.jupyterapp.shell.currentWidget.content;
+  const index = notebook.widgets.findIndex((cell) => cell.model.id === id);
+  if (source !== null) notebook.widgets[index].model.sharedModel.setSource(source);
+  notebook.activeCellIndex = index;
+  notebook.deselectAll();
+  await window.jupyterapp.commands.execute("notebook:run-cell");
+  const outputs = notebook.widgets[index].model.outputs.toJSON();
+  return outputs.map((one) => one.text || one.evalue || "").join("");
+}"""
+SOURCE = """(id) => window.jupyterapp.shell.currentWidget.content.widgets.find((cell) => cell.model.id === id)
+                    ?.model.sharedModel.getSource()"""
+
+WRONG = """def dh_transform(a, alpha, d, theta):
+    ca, sa, ct, st = np.cos(alpha), np.sin(alpha), np.cos(theta), np.sin(theta)
+    first = [[ct, -st, 0, a], [st * ca, ct * ca, -sa, -d * sa]]
+    return np.array([*first, [st * sa, ct * sa, ca, d * ca], [0, 0, 0, 1]])"""
+RIGHT = """def dh_transform(a, alpha, d, theta):
+    ca, sa, ct, st = np.cos(alpha), np.sin(alpha), np.cos(theta), np.sin(theta)
+    first = [[ct, -st * ca, st * sa, a * ct], [st, ct * ca, -ct * sa, a * st]]
+    return np.array([*first, [0, sa, ca, d], [0, 0, 0, 1]])"""
+
+
+class Student(Visit):
+    """Somebody with a browser profile of their own."""
+
+    def go(self, name=NAME):
+        """By the button on the notebook's page, until Python is ready."""
+        self.open(name.replace(".ipynb", ".html"))
+        self.page.evaluate("document.querySelector('header a.run').click()")
+        self.page.wait_for_function("() => location.pathname.includes('/run/lab/')", timeout=300_000)
+        self.wait()
+
+    def wait(self):
+        self.page.wait_for_function(OPEN, timeout=300_000)
+        self.page.wait_for_function(READY, timeout=300_000)
+
+    def run(self, cell, source=None):
+        return self.page.evaluate(RUN, [cell, source])
+
+    def source(self, cell):
+        return self.page.evaluate(SOURCE, cell)
+
+    def save(self, folder, number="4711"):
+        self.page.once("dialog", lambda dialog: dialog.accept(number))
+        with self.page.expect_download(timeout=60_000) as download:
+            self.page.click("#ck-bar [data-do=save]")
+        path = folder / download.value.suggested_filename
+        download.value.save_as(path)
+        return path
+
+
+@pytest.fixture(scope="module")
+def work(browser, run, served, tmp_path_factory):
+    """What one student does: a wrong answer, the right one, a reload, a copy. Later tests look at it."""
+    told = {}
+    with Student(browser, served.url) as student:
+        student.go()
+        student.run("setup")
+        told["wrong"] = (student.run("ex-dh-transform", WRONG), student.run("check-dh-transform"))[1]
+        told["right"] = (student.run("ex-dh-transform", RIGHT), student.run("check-dh-transform"))[1]
+        student.page.evaluate("() => window.jupyterapp.commands.execute('docmanager:save')")
+        student.page.wait_for_function(
+            "() => !window.jupyterapp.shell.currentWidget.context.model.dirty", timeout=60_000
+        )
+        told["bar"] = student.page.inner_text("#ck-bar")
+        student.page.reload(wait_until="domcontentloaded")
+        student.wait()
+        told["after reload"] = student.source("ex-dh-transform")
+        told["zip"] = student.save(tmp_path_factory.mktemp("work"))
+        told["bar after"] = student.page.inner_text("#ck-bar")
+        told["asked"], told["errors"] = student.asked, student.errors
+        student.context.set_offline(True)
+        student.page.reload(wait_until="domcontentloaded")
+        student.wait()
+        told["offline"] = student.source("ex-dh-transform")  # and Python has started
+    return told
+
+
+def test_a_check_fails_and_passes_there(work):
+    assert work["wrong"].startswith("✗ dh_transform")
+    assert "modified" in work["wrong"]
+    assert work["right"].startswith("✓ dh_transform: right on")
+
+
+def test_what_was_written_is_there_after_a_reload(work):
+    assert work["after reload"] == RIGHT
+
+
+def test_nothing_is_asked_of_another_host(work):
+    assert (work["asked"], work["errors"]) == ([], [])
+
+
+def test_from_the_second_time_on_no_network_is_needed(work):
+    assert work["offline"] == RIGHT
+
+
+def test_the_bar_says_where_the_work_is(work):
+    assert "stays in this browser only" in work["bar"]
+    assert "Last saved outside the browser: never" in work["bar"]
+    assert "never" not in work["bar after"]
+
+
+def test_the_copy_holds_what_was_written_and_a_list(work):
+    assert work["zip"].name == "coursekit-work-4711.zip"
+    with zipfile.ZipFile(work["zip"]) as files:
+        assert files.testzip() is None
+        assert sorted(files.namelist()) == [NAME, "coursekit-work.json"]
+        about = json.loads(files.read("coursekit-work.json"))
+        document = json.loads(files.read(NAME))
+    assert (about["name"], about["notebooks"]) == ("4711", [NAME])
+    sources = {cell["id"]: "".join(cell["source"]) for cell in document["cells"]}
+    assert sources["ex-dh-transform"] == RIGHT
+    given = notebook.student_version(notebook.read(the_course().notebook("nb01")))
+    assert [cell["id"] for cell in given["cells"]] == list(sources)
+
+
+def test_the_copy_comes_back_in_another_browser(browser, run, served, work, tmp_path):
+    with Student(browser, served.url) as other:
+        other.go()
+        assert "NotImplementedError" in other.source("ex-dh-transform")
+        other.page.set_input_files("#ck-bar input[type=file]", str(work["zip"]))
+        other.page.get_by_text(f"Brought back: {NAME}").wait_for(timeout=60_000)
+        other.wait()
+        assert other.source("ex-dh-transform") == RIGHT
+        # packed anew by another program, with other work there meanwhile: that one is put aside
+        again = tmp_path / "again.zip"
+        with zipfile.ZipFile(work["zip"]) as files, zipfile.ZipFile(again, "w", zipfile.ZIP_DEFLATED) as out:
+            for name in files.namelist():
+                out.writestr(name, files.read(name))
+        other.run("ex-dh-transform", "# something else")
+        other.page.set_input_files("#ck-bar input[type=file]", str(again))
+        other.page.wait_for_event("domcontentloaded", timeout=60_000)
+        other.wait()
+        assert other.source("ex-dh-transform") == RIGHT
+        names = other.page.evaluate(FILES)
+        assert any(name.startswith("earlier ") for name in names)
+
+
+def test_a_corrected_release_comes_in_and_the_work_stays(browser, run, pages, work, tmp_path):
+    site = tmp_path / "site"
+    shutil.copytree(pages, site)
+    with Served(site) as server, Student(browser, server.url) as student:
+        student.go()
+        student.page.set_input_files("#ck-bar input[type=file]", str(work["zip"]))
+        student.page.get_by_text(f"Brought back: {NAME}").wait_for(timeout=60_000)
+        _correct(site / "run")
+        student.go()
+        assert student.source("ex-dh-transform") == RIGHT
+        assert "corrected" not in student.source("title")
+        student.page.click("#ck-bar [data-do=update]", timeout=60_000)
+        student.page.get_by_text("The corrections are in").wait_for(timeout=120_000)
+        student.wait()
+        assert student.source("ex-dh-transform") == RIGHT
+        assert "corrected" in student.source("title")
+
+
+def _correct(run):
+    """A release with a higher version, in which a sentence differs."""
+    import hashlib
+
+    path = run / "files" / NAME
+    document = notebook.read(path)
+    document["cells"][0]["source"] += "\n\nThis sentence is corrected."
+    document["metadata"]["coursekit"]["version"] = "9.0.0"
+    notebook.write(path, document)
+    listed = json.loads((run / "files.json").read_text())
+    data = path.read_bytes()
+    sum_ = hashlib.sha256(data).hexdigest()[:16]
+    listed["files"][f"files/{NAME}"] = {"size": len(data), "sum": sum_}
+    listed["version"] = "another"
+    (run / "files.json").write_text(json.dumps(listed))
+
+
+def test_started_from_a_folder_it_says_what_is_missing(browser, run):
+    context = browser.new_context()
+    page = context.new_page()
+    page.goto((run / "start.html").as_uri())
+    assert "python3 -m http.server" in page.inner_text("#said")
+    page.goto((run.parent / NAME.replace(".ipynb", ".html")).as_uri())
+    page.click("header a.run")
+    assert "needs a web server" in page.inner_text("#folder")
+    context.close()
+
+
+def test_the_page_that_loads_says_how_far_it_is(browser, run, served):
+    with Student(browser, served.url) as visit:
+        said = []
+        visit.page.expose_function("heard", said.append)
+        visit.page.add_init_script(WATCH)
+        visit.open("run/start.html?path=" + NAME)
+        visit.page.wait_for_function("() => location.pathname.includes('/run/lab/')", timeout=300_000)
+        shares = [float(text.split("(")[1].split(" %")[0]) for text in said if "%" in text]
+        assert shares == sorted(shares)
+        assert shares[0] < 50 and shares[-1] == 100
+
+
+@pytest.fixture(scope="module")
+def collected(work, tmp_path_factory):
+    """A class's downloads, sorted: one student's copy, saved twice."""
+    folder = tmp_path_factory.mktemp("class")
+    (folder / "download").mkdir()
+    for name in (work["zip"].name, work["zip"].name.replace(".zip", " (1).zip")):
+        shutil.copy(work["zip"], folder / "download" / name)
+    collect.collect(folder / "download", folder / "submissions")
+    return folder / "submissions"
+
+
+def test_the_copy_is_collected_and_graded(collected, tmp_path):
+    assert [path.name for path in collected.iterdir() if path.is_dir()] == ["4711"]
+    assert leaks.MARKER.search((collected / "4711" / NAME).read_text("utf-8")) is None
+    grade.grade_class(collected, tmp_path / "out", jobs=1, box=False)
+    with (tmp_path / "out" / "grades.csv").open(encoding="utf-8-sig") as table:
+        (row,) = csv.DictReader(table)
+    assert float(row["dh_transform"]) > 0
+    assert float(row["mdh_transform"]) == 0
