@@ -6,7 +6,7 @@ import { pathToFileURL } from "node:url";
 const [folder, ...paths] = process.argv.slice(2);
 const { loadPyodide } = await import(pathToFileURL(`${folder}/pyodide.mjs`));
 const packages = ["micropip", "piplite", "ssl", "sqlite3", "ipykernel", "comm", "pyodide_kernel", "jedi", "ipython", "coursekit"];
-const python = await loadPyodide({ indexURL: `${folder}/`, packages, env: { HOME: "/home/pyodide", MPLBACKEND: "agg" } });
+const python = await loadPyodide({ indexURL: `${folder}/`, packages, env: { HOME: "/home/pyodide", MPLBACKEND: "agg", CI: "1" } });
 python.globals.set("documents", JSON.stringify(paths.map((path) => [path, fs.readFileSync(path, "utf8")])));
 await python.runPythonAsync(`
 import contextlib, io, json
