@@ -55,6 +55,7 @@ def write(out: Path, course: Course | None = None, pyodide: Path | None = None) 
         if pyodide:
             lite.write(students, pyodide, course.version, course.title, made / "run")
             notices.write(made, lite.SHIPPED)
+            notices.say(made, lite.PYODIDE)
         out.absolute().parent.mkdir(parents=True, exist_ok=True)
         shutil.move(made, out)
     return f"wrote {out}: {_RUNS if pyodide else _READS}"

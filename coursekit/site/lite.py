@@ -38,6 +38,14 @@ SHIPPED = {
     **dict.fromkeys(("comm", "typing-extensions", "u-msgpack-python"), "used by the course"),
 }
 
+# No text of its licence comes with its files; it asks to be told where the source is.
+PYODIDE = f"""pyodide {wheels.VERSION}: Python and its packages for a browser, files unchanged
+  Mozilla Public License 2.0, https://www.mozilla.org/MPL/2.0/
+  its source: https://github.com/pyodide/pyodide/tree/{wheels.VERSION}
+  Python itself: PSF License 2, https://docs.python.org/3/license.html
+  numpy, matplotlib, pillow and others: each wheel in run/static/pyodide holds its own licence
+"""
+
 
 def ready(pyodide: Path) -> Path:
     """Where JupyterLab's extensions lie; ValueError if a package or a file is missing that a build needs."""

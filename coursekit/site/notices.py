@@ -31,8 +31,13 @@ def write(out: Path, packages: dict[str, str]) -> None:
         for file, text in texts.items():
             (folder / file).write_text(text, encoding="utf-8")
         lines += [f"{name}: {what}", *(f"    {file}" for file in sorted(texts)), ""]
-    with (folder / "README.txt").open("a", encoding="utf-8") as readme:
-        readme.write("\n".join(lines) + "\n")
+    say(out, "\n".join(lines))
+
+
+def say(out: Path, text: str) -> None:
+    """Add to the list what comes from no installed package."""
+    with (out / "licences" / "README.txt").open("a", encoding="utf-8") as readme:
+        readme.write(text + "\n")
 
 
 def of_package(name: str) -> dict[str, str]:

@@ -54,6 +54,12 @@ def test_the_lock_names_what_is_there(run):
     assert {wheels.canonical(name) for name in kernel["loadPyodideOptions"]["packages"]} <= set(lock)
 
 
+def test_pyodides_licence_and_source_are_named(run):
+    listed = (run.parent / "licences" / "README.txt").read_text("utf-8")
+    assert "Mozilla Public License 2.0" in listed
+    assert "https://github.com/pyodide/pyodide/tree/0.27.7" in listed
+
+
 def test_it_is_light(run):
     listed = json.loads((run / "files.json").read_text())
     first = sum(listed["files"][name]["size"] for name in listed["first"])
