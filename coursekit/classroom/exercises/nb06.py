@@ -216,7 +216,21 @@ EXERCISES = [
                 "no_turns",
                 "whole turns are not tried: -174.72 degrees and 185.28 degrees are one place of the joint",
             ),
-            Hint("wrapped", "wrapping to half a turn is not enough: a limit may lie beyond half a turn"),
+            Hint(
+                "wrapped",
+                "you wrap to half a turn first: limits may lie beyond it. Bring theta to the first place at or"
+                " above lower",
+            ),
+            Hint(
+                "wrapped_by_mod",
+                "`% (2 * pi)` brings every angle to half a turn up or down: limits may lie beyond it. Bring"
+                " theta to the first place at or above lower",
+            ),
+            Hint(
+                "wrapped_upwards",
+                "you bring every angle to 0 to 360 degrees first: a lower limit may be negative. Bring theta to"
+                " the first place at or above lower",
+            ),
             Hint("turns_down_only", "turns go both ways: below the lower limit a turn has to be added"),
             Hint(
                 "joints_together",

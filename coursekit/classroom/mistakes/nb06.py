@@ -170,6 +170,15 @@ def inside_wrapped(theta, lower, upper):
     return inside_without_turns(np.angle(np.exp(1j * theta)), lower, upper)
 
 
+def inside_wrapped_by_mod(theta, lower, upper):
+    """As above, but for the last digit, which decides exactly on a limit."""
+    return inside_without_turns((theta + np.pi) % (2 * np.pi) - np.pi, lower, upper)
+
+
+def inside_wrapped_upwards(theta, lower, upper):
+    return inside_without_turns(theta % (2 * np.pi), lower, upper)
+
+
 def inside_any(theta, lower, upper):
     return np.any(lower + np.mod(theta - lower, 2 * np.pi) <= upper, axis=-1)
 
@@ -348,6 +357,8 @@ WRONG = {
     "inside": {
         "no_turns": inside_without_turns,
         "wrapped": inside_wrapped,
+        "wrapped_by_mod": inside_wrapped_by_mod,
+        "wrapped_upwards": inside_wrapped_upwards,
         "any_joint": inside_any,
         "turns_up_only": inside_turns_up_only,
         "turns_down_only": inside_turns_down_only,

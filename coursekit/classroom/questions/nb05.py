@@ -23,7 +23,7 @@ QUESTIONS = [
         "(0, 1, 0; v). What is v, as a list of three numbers, in metres?",
         answer=lambda x, z: [-z, 0, x],
         slips={
-            "The sign is that of w x q.": lambda x, z: [z, 0, -x],
+            "That is w x q. v is -w x q: turn all signs.": lambda x, z: [z, 0, -x],
             "This is the point q itself.": lambda x, z: [x, 0, z],
         },
     ),
@@ -218,11 +218,10 @@ QUESTIONS = [
 ]
 
 GOALS = {
-    "a Jacobian four ways": [
+    "a Jacobian three ways": [
         "jacobian_geometric",
         "jacobian_space",
         "transform_rate",
-        "jacobian_by_differences",
         "hinge_column",
         "slide_column",
         "read_rate",
@@ -231,4 +230,5 @@ GOALS = {
     "force to torques": ["torques", "payload", "test_power"],
     "ellipsoids": ["ellipsoid", "recall_rank", "test_half_axes"],
     "a damped run": ["dls_step", "dls_loop", "damping", "gain", "test_left"],
+    "further: by differences": ["jacobian_by_differences"],
 }
