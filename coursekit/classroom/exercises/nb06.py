@@ -218,8 +218,8 @@ EXERCISES = [
             ),
             Hint(
                 "wrapped",
-                "you wrap to half a turn first: limits may lie beyond it. Bring theta to the first place at or"
-                " above lower",
+                "you wrap to half a turn first: limits may lie beyond it. Bring theta to the first place at"
+                " or above lower",
             ),
             Hint(
                 "wrapped_by_mod",
@@ -228,8 +228,8 @@ EXERCISES = [
             ),
             Hint(
                 "wrapped_upwards",
-                "you bring every angle to 0 to 360 degrees first: a lower limit may be negative. Bring theta to"
-                " the first place at or above lower",
+                "you bring every angle to 0 to 360 degrees first: a lower limit may be negative. Bring theta"
+                " to the first place at or above lower",
             ),
             Hint("turns_down_only", "turns go both ways: below the lower limit a turn has to be added"),
             Hint(
