@@ -213,6 +213,43 @@ def test_installed_it_needs_no_network(machine, command):
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+# Run outside the checkout, where nothing but the wheel and numpy is installed.
+THE_WHEEL_ALONE = """
+import importlib.metadata, coursekit
+from coursekit import ik, robots, view
+arm = robots.kuka_kr6()
+assert ik.analytic(arm, arm.fk(arm.home)).exists.sum() == 8
+names = {found.name for found in importlib.metadata.distributions()}
+assert names <= {"coursekit", "numpy", "pip", "setuptools"}, names
+try:
+    view.explore(arm)
+except ModuleNotFoundError as error:
+    assert 'pip install "coursekit[view]"' in str(error), error
+else:
+    raise AssertionError("the 3D view needs more than numpy")
+"""
+
+
+PIP = ("-m", "pip", "-q", "--no-cache-dir")
+
+
+def test_the_wheel_brings_numpy_alone(machine):
+    folder = machine.course.parent / "wheel"
+    python = folder / "venv" / "bin" / "python"
+    steps = (
+        ["python3", "-m", "venv", str(folder / "venv")],
+        [str(python), *PIP, "wheel", "--no-deps", "-w", str(folder), str(machine.course)],
+        ["bash", "-c", f"'{python}' {' '.join(PIP)} install coursekit-*.whl"],
+        [str(python), "-c", THE_WHEEL_ALONE],
+    )
+    folder.mkdir()
+    for step in steps:
+        done = subprocess.run(
+            step, cwd=folder, env=machine.environment, capture_output=True, text=True, timeout=600
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
+
+
 def test_nothing_is_left_outside_the_course(machine):
     assert list(machine.temporary.iterdir()) == []
     at_top = {path.name for path in machine.course.iterdir()}
