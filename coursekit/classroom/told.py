@@ -74,7 +74,7 @@ def _example(exercise: Exercise, k: int, examples: list[Example], attempts: list
     parts = attempts[k].parts if k < len(attempts) else ()
     names = [f"result {i + 1}: " for i in range(len(one.right))] if exercise.several else [""]
     if exercise.compare == "any_solution":
-        return lines + [f"    yours {_numbers(part)}" for part in parts]
+        return lines + [textwrap.indent(_alone(part), "    ") for part in parts]
     for i, (name, right) in enumerate(zip(names, one.right, strict=True)):
         mine = parts[i] if i < len(parts) else None
         if mine is None:
@@ -127,6 +127,11 @@ def _side_by_side(name: str, mine: np.ndarray, right: np.ndarray, mask: np.ndarr
     if width + len(other[0]) > WIDTH:  # too wide for a page: one below the other
         return "\n".join([f"{name}yours (* is wrong)", *left, "expected", *other])
     return "\n".join([head, *(f"{a:<{width}}   {b}" for a, b in zip(left, other, strict=True))])
+
+
+def _alone(mine: np.ndarray) -> str:
+    """Yours with nothing beside it; a matrix begins in a new line, so that its columns stand straight."""
+    return f"yours{chr(10) if mine.ndim > 1 else ' '}{_numbers(mine)}"
 
 
 def _numbers(x: np.ndarray) -> str:

@@ -292,6 +292,28 @@ def test_levels_tell_more_and_more(monkeypatch, capsys):
         check("home_pose", namespace["home_pose"], show="everything")
 
 
+def test_where_many_answers_are_right_the_example_shows_yours_as_a_matrix(monkeypatch, capsys):
+    monkeypatch.delenv("CI", raising=False)
+    check("dh_table", lambda lengths: np.full((6, 4), 90.0), show="example")
+    lines = capsys.readouterr().out.splitlines()
+    begin = lines.index("    yours")
+    assert len(set(lines[begin + 1 : begin + 7])) == 1, "six equal rows, none pushed aside"
+
+
+@pytest.mark.parametrize(
+    "column, what", [(1, "Row 1 has alpha = 90 rad: angles"), (3, "Row 2 has theta = 90 rad: angles")]
+)
+def test_a_table_in_degrees_is_told_its_own_number(column, what):
+    def table(lengths):
+        h, o, u, f, t = lengths
+        q, p = np.pi / 2, np.pi
+        rows = [[o, q, h, 0], [u, 0, 0, q], [0, q, 0, 0], [0, q, f, p], [0, q, 0, p], [0, 0, t, 0]]
+        return np.array(rows) * np.where(np.arange(4) == column, 180 / np.pi, 1)
+
+    text = classroom.diagnose("dh_table", table).text
+    assert what in " ".join(text.split()), text
+
+
 def test_right_after_wrong_says_what_it_was(monkeypatch, capsys):
     monkeypatch.delenv("CI", raising=False)
     source = "def elbow_angle(a3, d4):\n    return np.arctan2(a3, d4 * a3)\n"

@@ -80,3 +80,16 @@ def test_in_a_loop_it_is_said_once(capsys):
     mine = use(lambda a: np.array([a, a]), course=right)
     assert mine(1.0).tolist() == [1.0, 1.0]
     assert capsys.readouterr().out == ""
+
+
+def test_a_list_that_is_one_of_many_right_answers_is_taken_as_an_array(capsys):
+    """The laws of such an exercise count with arrays; what is returned may be a list all the same."""
+
+    def dh_table(lengths):
+        h, o, u, f, t = lengths
+        q = np.pi / 2
+        return [[o, q, h, 0], [u, 0, 0, q], [0, q, 0, 0], [0, q, f, 0], [0, q, 0, 2 * q], [0, 0, t, 0]]
+
+    lengths = np.array([0.68, 0.15, 0.87, 1.08, 0.165])
+    yours(dh_table, lengths, course=np.array(dh_table(lengths)))
+    assert capsys.readouterr().out == "dh_table: yours and the course's agree.\n"

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from coursekit import dh, robots
+from coursekit.classroom import ask
 from coursekit.classroom.author import notebook
 from tests.kinematics.conftest import load
 
@@ -159,6 +160,20 @@ def test_the_kawasaki_in_its_drawn_pose():
     np.testing.assert_array_equal(T, [[0, 0, 1, 1395], [0, -1, 0, 0], [1, 0, 0, 1550], [0, 0, 0, 1]])
 
 
+def test_another_right_table_has_another_frame_6_and_fk_dh_is_right_all_the_same(run, solved, capsys):
+    """z_3 to z_5 of the other sense: as good a table as the course's, but its pose is not the course's."""
+
+    def dh_table(lengths):
+        h, o, u, f, t = lengths
+        q = np.pi / 2
+        return [[o, q, h, 0], [u, 0, 0, q], [0, q, 0, 0], [0, q, f, 0], [0, q, 0, np.pi], [0, 0, t, 0]]
+
+    namespace = run("kawasaki", dh_table=dh_table, fk_dh=solved.fk_dh)
+    said = capsys.readouterr().out.splitlines()
+    assert said[:2] == [f"{name}: yours and the course's agree." for name in ("dh_table", "fk_dh")]
+    assert np.abs(namespace["T"] - robots.kawasaki_s030().fk(robots.kawasaki_s030().home)).max() > 1
+
+
 def test_the_joint_ranges_of_the_exam():
     rows = [numbers(line) for line in printed("s030-ranges").splitlines()[3:9]]
     assert [row[2:] for row in rows] == [
@@ -180,6 +195,19 @@ def test_the_half_filled_rows_are_those_of_the_abb():
         (question,) = [q for q in QUESTIONS if q.name == name]
         row = [1000 * table.a[i], np.degrees(table.alpha[i]), 1000 * table.d[i], np.degrees(table.theta[i])]
         np.testing.assert_allclose(question.answer(**lengths), row)
+
+
+@pytest.mark.parametrize("name", ["abb_row_2", "abb_row_4"])
+def test_a_row_in_metres_and_radians_is_told_its_units(name, capsys):
+    asked = ask(name)
+    row = np.array(asked.question.answer(**asked.numbers))
+    for length, angle, said in (
+        (0.001, np.pi / 180, "a and d in mm, please, and angles in degrees"),
+        (0.001, 1, "a and d in mm, please:"),
+        (1, np.pi / 180, "alpha and theta in degrees, please"),
+    ):
+        asked.answer(list(row * [length, angle, length, angle]))
+        assert f"not yet. {said}" in capsys.readouterr().out
 
 
 @pytest.fixture

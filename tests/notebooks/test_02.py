@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from coursekit import lie, robots
+from coursekit.classroom import own_arm, yours
 from coursekit.classroom.author import notebook
 from coursekit.view import text as text_module
 from coursekit.view.figures.nb02 import telescope_arm
@@ -128,6 +129,24 @@ def test_the_scara_slides_down(solved):
     scara = robots.scara()
     S = solved.joint_screw("prismatic", np.array([0, 0, -2.0]), np.array([0.6, 0, 0.387]))
     assert np.allclose(S, scara.S[:, 2])
+
+
+@pytest.mark.parametrize("written", [False, True])
+def test_what_is_read_off_is_compared_and_shown_once_it_is_written(written, capsys):
+    """M is compared as well; while nothing is written, nothing of the course's passes for the student's."""
+    own, cell = own_arm(), CELLS["own-arm"]["source"]
+    read = "M, S = own.M.copy(), own.S.copy()\n    M[0, 3] += 0.05\n    S[4, 2] -= 0.2\n    return M, S"
+    cell = cell.replace("raise NotImplementedError", read) if written else cell
+    namespace = {"own": own, "np": np, "yours": yours, "text": text_module}
+    notebook.run_cell(cell, "own-arm", namespace)
+    said = capsys.readouterr().out
+    if not written:
+        assert namespace["mine"] == {}
+        assert said == "read_off is not written yet: the course's value is used here.\n"
+        return
+    np.testing.assert_array_equal(namespace["mine"]["S"], namespace["S_own"])
+    assert "M off by 0.050\n" in said
+    assert "S_1 to S_6 off by (0.000, 0.000, 0.200, 0.000, 0.000, 0.000)\n" in said
 
 
 def test_the_half_filled_screws_are_those_of_the_abb():

@@ -31,6 +31,16 @@ def test_every_word_says_where_it_is_used_first_and_what_it_is(word):
     assert entry.endswith((".", ")"))
 
 
+@pytest.mark.parametrize("word", WORDS)
+def test_every_word_stands_in_the_notebook_it_names(word):
+    """As it is written here, or as what a link to it shows."""
+    number = re.search(rf"^## {re.escape(word)}\n\n\((\d\d)\)", TEXT, flags=re.M)[1]
+    (path,) = FOLDER.glob(f"{number}_*.ipynb")
+    text = " ".join(" ".join(cell["source"] for cell in notebook.read(path)["cells"]).split()).lower()
+    written = any(re.search(rf"\b{re.escape(w)}", text) for w in word.lower().split(", "))
+    assert written or f"glossary.md#{anchor(word)})" in text
+
+
 @pytest.mark.parametrize("path", sorted(FOLDER.glob("*.ipynb")), ids=lambda path: path.stem)
 def test_links_arrive(path):
     prose = "\n".join(c["source"] for c in notebook.read(path)["cells"] if c["cell_type"] == "markdown")

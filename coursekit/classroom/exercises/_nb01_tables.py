@@ -11,6 +11,7 @@ from coursekit.classroom.exercises._axes import NEAR, between, deg, mm, pose_gap
 from coursekit.classroom.exercises._nb01 import angles, dh_row
 
 X, Y, Z = np.eye(3)
+ANGLES = "alpha", "theta"  # columns 1 and 3 of a table
 
 
 # ---- making a table: the S030 of the exam
@@ -57,12 +58,22 @@ def _along(i, angle, slide):
 
 
 def _table_gap(args, rows, right):
-    """The first thing that a table gets wrong: a twist, an axis, the flange."""
+    """The first thing that a table gets wrong; where it is an angle in degrees, that."""
+    gap = _misplaced(args[0], rows)
+    large = np.argwhere(np.abs(rows[:, [1, 3]]) > 2 * np.pi + NEAR)
+    if gap and len(large):
+        i, k = large[0]
+        return f"row {i + 1} has {ANGLES[k]} = {rows[i, 2 * k + 1]:.3g} rad: angles are in radians here"
+    return gap
+
+
+def _misplaced(lengths, rows):
+    """The first thing that does not fit the drawing: a twist, an axis, the flange."""
     for i, alpha in enumerate(rows[:, 1], 1):
         alpha = (alpha + np.pi / 2) % (2 * np.pi) - np.pi / 2  # -90 to 270 deg
         if min(abs(alpha), abs(alpha - np.pi / 2)) > NEAR:
             return f"row {i} has a twist of {np.degrees(alpha):.3g} deg; yours may be 0 or +90 deg only"
-    axes, flange = drawn(args[0])
+    axes, flange = drawn(lengths)
     placed = frames(rows)
     for i, (w, q) in enumerate(axes[1:], 1):
         z, p = placed[i][:3, 2], placed[i][:3, 3]

@@ -33,6 +33,22 @@ def _at(a, d, theta):
     return [a * np.cos(angle), a * np.sin(angle), d]
 
 
+def _other_units(row):
+    """Slips of a row in mm and degrees: what it reads in metres, in radians, in both."""
+
+    def written(length, angle):
+        return lambda **lengths: [float(x) for x in np.multiply(row(**lengths), [length, angle] * 2)]
+
+    metres, radians = 0.001, np.pi / 180
+    return {
+        "a and d in mm, please, and angles in degrees: you have metres and radians.": written(
+            metres, radians
+        ),
+        "a and d in mm, please: you have metres.": written(metres, 1),
+        "alpha and theta in degrees, please: you have radians.": written(1, radians),
+    }
+
+
 WRONG = ("its origin is right, its rotation is not", "only the height of its origin is off")
 
 QUESTIONS = [
@@ -85,6 +101,7 @@ QUESTIONS = [
                 0,
                 -90,
             ],
+            **_other_units(lambda L1, L2, L3, L4: [L2, 0, 0, -90]),
         },
     ),
     Question(
@@ -104,6 +121,7 @@ QUESTIONS = [
                 lambda L1, L2, L3, L4: [0, -90, L4, 0]
             ),
             "Axes 4 and 5 are perpendicular: there is a twist.": lambda L1, L2, L3, L4: [0, 0, L4, 0],
+            **_other_units(lambda L1, L2, L3, L4: [0, 90, L4, 0]),
         },
     ),
     Question(

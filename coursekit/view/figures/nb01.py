@@ -68,9 +68,9 @@ def common_normals() -> None:
         for name, start, end in (("a₁ = 25", top, two), ("a₂ = 455", two, three), ("a₃ = 35", three, corner)):
             ax.plot(*np.array([start, end]).T, color=palette("accent"), lw=2.6)
             beside = (
-                {"xytext": (-6, 0), "ha": "right"}
+                {"xytext": (6, 0)}
                 if start[0] == end[0]
-                else {"xytext": (0, 9), "ha": "center"}
+                else {"xytext": (0, 20), "ha": "center"}  # above the letter of the x axis
             )
             ax.annotate(
                 name, np.mean([start, end], axis=0), textcoords="offset points", fontsize=10, **beside
@@ -85,7 +85,7 @@ def common_normals() -> None:
         mark_frame(ax, "1", two, [("x₁", forward)], beside=(-8, -32))
         mark_frame(ax, "2", three, [("x₂", forward)], beside=(-8, -32))
         mark_frame(ax, "3", corner, [("x₃", x), ("z₃", z)], beside=(10, 8))
-        mark_frame(ax, "4", wrist, [("x₄", x)], beside=(-8, -32))
+        mark_frame(ax, "4", wrist, [("x₄", x)], beside=(-8, -32) if x == up else (-36, -4))
         ax.set(title=title, xlim=(-90, 900), ylim=(-160, 600), aspect="equal", xticks=[], yticks=[])
     plt.show()
 
