@@ -191,13 +191,21 @@ def _named(exercise: Exercise, examples: list[Example], answers: list[Parts]):
 
     Where the student's function raises, the others must do: at least three of them, and most.
     """
-    known = [(e, parts) for e, parts in zip(examples, answers, strict=True) if parts]
+    known = [(e, _rows(exercise, parts)) for e, parts in zip(examples, answers, strict=True) if parts]
     if len(known) < max(3, len(examples) / 2) and len(known) < len(examples):
         return None
     for hint in exercise.hints:
         if all(hint.key in e.wrong and e.agrees(parts, e.wrong[hint.key]) for e, parts in known):
             return hint
     return None
+
+
+def _rows(exercise: Exercise, parts: Parts) -> Parts:
+    """One solution that came without its brackets, (3,) for (1, 3), is a set of one."""
+    return tuple(
+        part[None] if kind == "set" and part.ndim == len(shape) - 1 else part
+        for kind, part, shape in zip(exercise.kinds, parts, exercise.shapes, strict=True)
+    )
 
 
 # ---- 4 and 5: with the code

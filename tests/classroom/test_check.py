@@ -215,6 +215,17 @@ def test_the_line_is_found_and_the_edit_is_not_told(old, new, text):
     assert old not in found.say
 
 
+def test_a_function_of_one_line_has_its_fault_in_line_1():
+    tip = "l1 * np.array([np.cos(theta[0]), np.sin(theta[0])]) + l2 * np.array([np.cos(b), np.cos(b)])"
+    file, text = "<a cell of one line>", f"def fk(theta, l1, l2): b = theta.sum(); return {tip}\n"
+    linecache.cache[file] = (len(text), None, [text], file)
+    namespace = {"np": np}
+    exec(compile(text, file, "exec"), namespace)
+    found = verdict("fk", namespace["fk"])
+    assert (found.step, found.say[:16]) == ("repair", "look at line 1: "), found
+    assert found.mended.endswith("in line 1")
+
+
 def test_repair_leaves_no_trace(capsys):
     kept = {"list": [], "count": 0}
     body = FK.replace("np.cos(b)", "np.sin(b)").replace("return", "log.append(1)\nprint('seen')\nreturn")

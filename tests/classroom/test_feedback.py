@@ -86,6 +86,27 @@ def test_the_first_sentence_is_short(file):
         assert len(first.splitlines()) <= 8, f"{row['exercise']}, {row['label']}: {found.text}"
 
 
+ONE_BEND = """
+def wrist_angles(R):
+    t4, t6 = -np.arctan2(R[1, 0], -R[2, 0]), -np.arctan2(R[0, 1], R[0, 2])
+    return np.array({})
+"""
+T5 = "np.arctan2(np.hypot(R[0, 1], R[0, 2]), R[0, 0])"
+
+
+@pytest.mark.parametrize(
+    "exercise, code, say",
+    [
+        ("wrist_angles", ONE_BEND.format(f"[t4, {T5}, t6]"), "that is one of the two solutions"),
+        ("wrist_angles", ONE_BEND.format(f"[[t4, {T5}, t6]]"), "that is one of the two solutions"),
+        ("det_from_blocks", "def det_from_blocks(J):\n    return np.linalg.det(J)", "of the whole J"),
+        ("lost_motion", "def lost_motion(J): return np.linalg.svd(J)[2][:, -1]", "look at line 1: "),
+    ],
+)
+def test_what_was_wrong_is_said_however_it_was_written(exercise, code, say):
+    assert say in diagnosis({"exercise": exercise, "code": code}).say
+
+
 def test_repair_keeps_its_budget(monkeypatch):
     """Trials are counted, not timed: none takes more than its share of executed lines."""
     spent = []

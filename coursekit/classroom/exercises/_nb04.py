@@ -19,7 +19,7 @@ def _wrist_centre(theta, lengths):
 
 
 def reached(rng, front=True, folded=False):
-    """P, theta_1, theta_3 and the lengths of an arm built like the S030; behind: it reaches over its back."""
+    """P, theta_1, theta_3 and the lengths of an arm built like the S030; behind: it bends backwards."""
     while True:
         lengths = rng.uniform([0.1, 0.4, 0.6, 0.8], [0.3, 0.8, 0.9, 1.2])
         t1, t2 = rng.uniform(-3, 3), rng.uniform(-3, 3)

@@ -170,10 +170,10 @@ EXERCISES = [
         hints=(
             Hint(
                 "front_only",
-                "these reach to the front; joint 1 can turn round, the arm then reaches over its back",
+                "these reach to the front; joint 1 can turn round, the arm then bends backwards over axis 1",
             ),
             Hint("axis_1", "axis 1 points down: a positive theta1 turns from y to x"),
-            Hint("same_r", "over its back the arm reaches to -r, not to r"),
+            Hint("same_r", "bent backwards over axis 1 the arm reaches to -r, not to r"),
             Hint(
                 "no_flip", "joints 4 to 6 have two solutions for each of the four arms: four rows are missing"
             ),

@@ -60,10 +60,18 @@ def _whole_wrist_jacobian(rng):
     return (J,)
 
 
+def _something_lower_right(rng):
+    """The block that counts as 0 holds numbers: only a function that does not look there is right."""
+    (J,) = _wrist_jacobian(rng)
+    J[3:, 3:] = rng.uniform(-1, 1, (3, 3))
+    return (J,)
+
+
 def _by_numpy(args, value, right):
     if not np.isfinite(value):
         return ""
-    return f"numpy's det of the whole J is {right:.4g} in one example, yours is {value + 0.0:.4g}"
+    whole = "with 0 in that block, numpy's det of" if np.any(args[0][3:, 3:]) else "numpy's det of the whole"
+    return f"{whole} J is {right:.4g} in one example, yours is {value + 0.0:.4g}"
 
 
 # ---- elbow_angle and shoulder_theta3
@@ -232,6 +240,7 @@ EXERCISES = [
         edges=(
             Edge("where J[:3, :3] is zero", _nothing_upper_left),
             Edge("where the lower left block is singular", _singular_arm),
+            Edge("where the block that counts as 0 holds other numbers", _something_lower_right),
             Edge("for whole numbers", _whole_wrist_jacobian, tol=1e-6),
         ),
         residual=_by_numpy,
@@ -240,6 +249,7 @@ EXERCISES = [
             Hint("diagonal", "these are the blocks on the diagonal; one of them is 0, so look at the others"),
             Hint("sizes", "a block can be singular without being 0: take its determinant, not its size"),
             Hint("arm_only", "this is the arm's block alone: the wrist has its share in det J"),
+            Hint("whole", "that is the determinant of the whole J: use the two 3 x 3 blocks"),
         ),
     ),
     Exercise(
@@ -308,7 +318,7 @@ EXERCISES = [
         unit="rad",
         edges=(
             Edge("for the exam's p_n", _exam.the_exam),
-            Edge("where the arm reaches over its back", lambda rng: _exam.reached(rng, front=False), 2),
+            Edge("where the arm bends backwards over axis 1", lambda rng: _exam.reached(rng, front=False), 2),
             Edge("where cos(theta_3) is negative", lambda rng: _exam.reached(rng, folded=True), 2),
             Edge("for whole numbers", _exam.whole_exam),
         ),
@@ -320,7 +330,8 @@ EXERCISES = [
             Hint("no_d1", "the shoulder stands at the height d1: subtract it from p_z"),
             Hint("one_sign", "look at the signs of d4 cos(theta_3): they differ in the two rows"),
             Hint(
-                "front_only", "over its back the arm reaches to a negative distance: use theta1, not a length"
+                "front_only",
+                "bent backwards over axis 1 the arm reaches to a negative distance: use theta1, not a length",
             ),
             Hint(
                 "one_quadrant",

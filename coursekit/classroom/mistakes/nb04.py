@@ -99,6 +99,7 @@ WRONG = {
         "diagonal": blocks_on_the_diagonal,
         "sizes": sizes_of_the_blocks,
         "arm_only": lambda J: np.linalg.det(J[3:, :3]),
+        "whole": lambda J: np.linalg.det(J),
     },
     "elbow_angle": {
         "inverted": lambda a3, d4: np.arctan(d4 / a3),

@@ -63,7 +63,7 @@ def repair(exercise: Exercise, function: Callable, examples: list, cost: int) ->
     if len(lines) > 2 or lines[-1] - lines[0] > 1:
         return None  # it could be here or there
     kinds = [(hit.kind, hit.what) for hit in hits]
-    return Found(sentence(kinds, lines), phrase(kinds, lines))
+    return Found(sentence(kinds, lines, search.body), phrase(kinds, lines, search.body))
 
 
 class _Search:
@@ -72,6 +72,7 @@ class _Search:
         self.box = Sandbox(function)
         self.tree = self.box.tree
         self.first = self.tree.lineno
+        self.body = self.tree.body[0].lineno - self.first + 1  # 1 where all stands in the line of the `def`
         self.chosen: dict[int, Variant] = {}
         self.ordinary: dict[int, Callable] = {}
         self.box.names[PROBE], self.box.names[LOCALS] = self._probe, locals

@@ -58,21 +58,21 @@ EVERY = {
 }
 
 
-def phrase(kinds: list[tuple[str, str]], lines: list[int]) -> str:
-    """ "a sign in line 4": what it was, for the moment when it is mended."""
-    where = _lines(lines)
+def phrase(kinds: list[tuple[str, str]], lines: list[int], body: int = 2) -> str:
+    """ "a sign in line 4": what it was, for the moment when it is mended. body: the line it begins in."""
+    where = _lines(lines, body)
     return f"{_what(kinds)} in {where}" if where else _what(kinds)
 
 
-def sentence(kinds: list[tuple[str, str]], lines: list[int]) -> str:
+def sentence(kinds: list[tuple[str, str]], lines: list[int], body: int = 2) -> str:
     """ "look at line 4: a sign", from the kinds of all edits that would do, and their lines."""
-    where = _lines(lines)
+    where = _lines(lines, body)
     return f"look at {where or 'several lines at once'}: {_what(kinds)}"
 
 
-def _lines(lines: list[int]) -> str:
-    """The line of the `def` stands for the arguments, line 0 for several places at once."""
-    if lines[-1] < 2:
+def _lines(lines: list[int], body: int) -> str:
+    """Line 0 is several places at once; the line of the `def` the arguments, unless the body is in it."""
+    if lines[-1] < min(body, 2):
         return ""
     return f"line {lines[0]}" if len(lines) == 1 else f"lines {lines[0]} and {lines[1]}"
 

@@ -94,7 +94,7 @@ def analytic(robot: Robot, T: ArrayLike) -> Solutions:
     named by what one sees:
 
     front, back            the wrist is on that side of axis 1 where it is at theta = 0; or joint 1 has turned
-                           round and the arm reaches over its back
+                           round and the arm bends backwards over it
     elbow-up, elbow-down   the elbow is above or below the line from shoulder to wrist, seen in the direction
                            of reach. Up is the direction of axis 1 that is nearer to z of the space frame
     no-flip, flip          joint 5 bends the hand away from axis 4 in its positive or its negative sense
