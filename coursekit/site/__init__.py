@@ -6,9 +6,9 @@
     pages.py     these notebooks as pages, and the index
     lite.py      JupyterLab with Python in the browser, if Pyodide's files are given
     wheels.py    the packages of that Python, and the check that none is missing
+    reference.py the package, name by name
     notices.py   the licences of what is shipped
-
-It needs the packages of requirements.txt in this folder, on top of environment.txt.
+    tools.py     where the packages of requirements.txt lie, which only the building needs
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from pathlib import Path
 from ..classroom.author import release
 from ..classroom.course import Course, the_course
 from . import notices
+from . import tools as tools
 
 
 def write(out: Path, course: Course | None = None, pyodide: Path | None = None) -> str:

@@ -13,7 +13,7 @@ import tempfile
 from importlib import util
 from pathlib import Path
 
-from . import wheels
+from . import tools, wheels
 
 # JupyterLab's parts that the explorers need, as this environment has them.
 _EXTENSIONS = ("@jupyter-widgets/jupyterlab-manager", "@jupyterlite/pyodide-kernel-extension", "anywidget")
@@ -22,7 +22,6 @@ _KERNEL = "@jupyterlite/pyodide-kernel-extension"
 _FIRST = re.compile(
     r"^(static/pyodide|lab|files|api)/|^build/jlab_core\.|^extensions/.*remoteEntry|^[^/]*\.json$"
 )
-REQUIREMENTS = Path(__file__).with_name("requirements.txt")
 STATIC = Path(__file__).with_name("static")
 
 
@@ -51,11 +50,8 @@ def ready(pyodide: Path) -> Path:
     """Where JupyterLab's extensions lie; ValueError if a package or a file is missing that a build needs."""
     wheels.official(pyodide)
     if util.find_spec("jupyterlite_core") is None:
-        raise ValueError(
-            "JupyterLab in the browser needs packages that are not installed: "
-            f"python -m pip install -r {REQUIREMENTS.as_posix()}"
-        )
-    return Path(sys.prefix) / "share" / "jupyter" / "labextensions"
+        raise ValueError(f"JupyterLab in the browser needs packages that are not installed: {tools.INSTALL}")
+    return tools.EXTENSIONS
 
 
 def write(course: Path, pyodide: Path, version: str, title: str, out: Path) -> None:
@@ -121,7 +117,8 @@ def _build(work: Path, notebooks: Path) -> None:
     command += ["--apps", "lab", "--lite-dir", str(work / "lite"), "--contents", str(notebooks)]
     command += ["--output-dir", str(work / "built"), "--ignore-sys-prefix", "federated_extensions"]
     command += [f"--FederatedExtensionAddon.extra_labextensions_path={work / 'labextensions'}"]
-    environment = {**os.environ, "PYTHONWARNINGS": "ignore"}
+    path = os.pathsep.join(filter(None, [os.environ.get("PYTHONPATH"), str(tools.FOLDER)]))
+    environment = {**os.environ, "PYTHONWARNINGS": "ignore", "PYTHONPATH": path}
     done = subprocess.run(command, cwd=work / "lite", env=environment, capture_output=True, text=True)
     if done.returncode:
         raise ValueError(f"JupyterLite could not be built:\n{(done.stdout + done.stderr)[-3000:]}")

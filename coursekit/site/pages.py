@@ -19,10 +19,8 @@ from pygments.formatters import HtmlFormatter
 
 from ..classroom.author.notebook import is_check, is_solution
 from ..view import reopened
-from . import notices, reference, shown
+from . import notices, reference, shown, tools
 from .frame import STATIC, framed
-
-REQUIREMENTS = Path(__file__).with_name("requirements.txt")
 
 # What MathJax needs for TeX in these pages; the rest of it (other input, other languages) stays away.
 _OF_MATHJAX = (
@@ -63,10 +61,7 @@ def formulas() -> Path:
     """The folder of MathJax's files; ValueError if the package that brings them is not installed."""
     found = importlib.util.find_spec("jupyter_server_mathjax")
     if found is None or not found.origin:
-        raise ValueError(
-            "the pages need MathJax's files, which are not installed: "
-            f"python -m pip install -r {REQUIREMENTS.as_posix()}"
-        )
+        raise ValueError(f"the pages need MathJax's files, which are not installed: {tools.INSTALL}")
     return Path(found.origin).parent / "static"
 
 

@@ -38,7 +38,7 @@ def pyodide(pytestconfig):
 def pages(request, tmp_path_factory):
     """The folder of a site; with what runs in the browser if Pyodide's files are here, or must be (in CI)."""
     if not find_spec("jupyter_server_mathjax") or not find_spec("jupyterlite_core"):
-        missing("the site's packages are not installed (pip install -r coursekit/site/requirements.txt)")
+        missing(f"the site's packages are not installed ({site.tools.INSTALL})")
     out = tmp_path_factory.mktemp("site") / "out"
     try:
         files = request.getfixturevalue("pyodide")
