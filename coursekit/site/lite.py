@@ -46,12 +46,11 @@ PYODIDE = f"""pyodide {wheels.VERSION}: Python and its packages for a browser, f
 """
 
 
-def ready(pyodide: Path) -> Path:
-    """Where JupyterLab's extensions lie; ValueError if a package or a file is missing that a build needs."""
+def ready(pyodide: Path) -> None:
+    """ValueError if a package or a file is missing that a build needs."""
     wheels.official(pyodide)
     if util.find_spec("jupyterlite_core") is None:
         raise ValueError(f"JupyterLab in the browser needs packages that are not installed: {tools.INSTALL}")
-    return tools.EXTENSIONS
 
 
 def write(course: Path, pyodide: Path, version: str, title: str, out: Path) -> None:
@@ -66,10 +65,10 @@ def write(course: Path, pyodide: Path, version: str, title: str, out: Path) -> N
     version, title : str
         Of the course.
     """
-    extensions = ready(pyodide)
+    ready(pyodide)
     with tempfile.TemporaryDirectory() as folder:
         work = Path(folder)
-        pypi = extensions / _KERNEL / "static" / "pypi"
+        pypi = tools.extension(_KERNEL) / "static" / "pypi"
         (work / "lite").mkdir()
         python = work / "pyodide"
         packages = wheels.write(pyodide, pypi, course, version, python)
@@ -77,7 +76,7 @@ def write(course: Path, pyodide: Path, version: str, title: str, out: Path) -> N
         wheels.check_imports(packages, python / packages["coursekit"]["file_name"], notebooks)
         for name in _EXTENSIONS:
             leave = shutil.ignore_patterns("*.map", "pypi")
-            shutil.copytree(extensions / name, work / "labextensions" / name, ignore=leave)
+            shutil.copytree(tools.extension(name), work / "labextensions" / name, ignore=leave)
         shutil.copytree(STATIC / "lab", work / "labextensions" / "coursekit-site")
         _settings(work / "lite", title)
         _build(work, course / "notebooks")
