@@ -17,7 +17,8 @@ t1, t2, t3, t4, t5, t6 = sp.symbols("theta_1:7", real=True)
 def value(arm, expression, theta):
     """The expression as numbers."""
     function = sp.lambdify([arm.theta, list(arm.lengths)], expression, cse=True)
-    return np.array(function(theta, [float(metres) for metres in arm.lengths.values()]), dtype=float)
+    numbers = np.array(function(theta, [float(metres) for metres in arm.lengths.values()]), dtype=float)
+    return numbers.reshape(expression.shape if isinstance(expression, sp.MatrixBase) else ())
 
 
 def angles(robot, seed=0):

@@ -140,8 +140,8 @@ def test_what_waits_is_told_from_what_fails(tmp_path):
 def test_an_explorer_follows_its_slider_without_a_kernel(browser, served):
     with Visit(browser, served.url) as visit:
         page = visit.open("01_dh_vs_poe.html")
-        page.locator(".explorer").scroll_into_view_if_needed()
-        frame = page.locator(".explorer iframe").content_frame
+        page.locator(".explorer").first.scroll_into_view_if_needed()
+        frame = page.locator(".explorer iframe").first.content_frame
         frame.locator("[role=slider]").first.press("PageUp", timeout=60_000)
         inner = next(one for one in page.frames if "/explorers/" in one.url)
         inner.wait_for_function("() => document.querySelector('#words').textContent.includes('(10.0, -90.0')")
@@ -184,8 +184,8 @@ def test_looks_are_kept(browser, served):
         page = visit.open("03_inverse_kinematics.html")
         assert page.evaluate(colour) == "rgb(22, 24, 28)"
         assert page.evaluate("getComputedStyle(document.documentElement).fontSize") == "25.5px"
-        page.locator(".explorer").scroll_into_view_if_needed()
-        inner = page.locator(".explorer iframe").content_frame
+        page.locator(".explorer").first.scroll_into_view_if_needed()
+        inner = page.locator(".explorer iframe").first.content_frame
         inner.locator("[data-jp-theme-light=false]").wait_for(timeout=60_000)
         page.click("#looks summary")
         page.click("#looks [type=reset]")
@@ -204,8 +204,10 @@ def test_pages_read_before_can_be_read_without_a_network(browser, served):
         page = visit.open("02_msb_derivation.html")
         assert "M, S and B" in page.inner_text("h1")
         page.wait_for_function("() => document.querySelector('.MathJax')", timeout=60_000)
-        page.locator(".explorer").scroll_into_view_if_needed()
-        page.locator(".explorer iframe").content_frame.locator("[role=slider]").first.wait_for(timeout=60_000)
+        page.locator(".explorer").first.scroll_into_view_if_needed()
+        page.locator(".explorer iframe").first.content_frame.locator("[role=slider]").first.wait_for(
+            timeout=60_000
+        )
 
 
 @pytest.mark.browser
@@ -214,8 +216,8 @@ def test_opened_from_a_folder_it_moves(browser, pages):
     page = context.new_page()
     page.goto((pages / "02_msb_derivation.html").as_uri())
     page.wait_for_function("() => document.querySelector('.MathJax')", timeout=60_000)
-    page.locator(".explorer").scroll_into_view_if_needed()
-    frame = page.locator(".explorer iframe").content_frame
+    page.locator(".explorer").first.scroll_into_view_if_needed()
+    frame = page.locator(".explorer iframe").first.content_frame
     frame.locator("[role=slider]").first.press("PageUp", timeout=60_000)
     frame.locator("#words").get_by_text("10.0").wait_for()
     context.close()
@@ -226,6 +228,6 @@ def test_on_paper_an_explorer_is_a_picture(browser, served):
     with Visit(browser, served.url) as visit:
         page = visit.open("01_dh_vs_poe.html")
         page.emulate_media(media="print")
-        assert page.locator(".explorer img").is_visible()
-        assert not page.locator(".explorer iframe").is_visible()
+        assert page.locator(".explorer img").first.is_visible()
+        assert not page.locator(".explorer iframe").first.is_visible()
         assert not page.locator("header").is_visible()
