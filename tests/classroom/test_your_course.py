@@ -635,7 +635,7 @@ def test_the_page_for_instructors_names_what_there_is(folder):
     (folder / "course.toml").write_text(text)
     course = read(folder)
     assert course.units == ["nb02", "01_gripper", "nb04"] and course.weights == {"grip": 4}
-    for options in re.findall(r"`?--(\w+)", page):
+    for options in re.findall(r"`?--(\w[\w-]*)", page):
         known = [flag for command in COMMANDS.values() for flags, _ in command.arguments for flag in flags]
         assert f"--{options}" in [*known, "--course", "--help"]
 
