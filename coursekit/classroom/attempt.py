@@ -197,7 +197,7 @@ def _explain(exercise: Exercise, function: Callable, error: Exception, arguments
     if frame is None:
         return Attempt(fault="error", text=f"it raises {text}")
     line = at - frame.f_code.co_firstlineno + 1
-    if frame.f_code is not getattr(function, "__code__", None) and (call := _call(error, function)):
+    if frame.f_code is not getattr(function, "__code__", None) and (call := call_from(function, error)):
         # a function that it calls raises: what it was called with is the matter
         frame, at, text = *call, f"{text}, in {frame.f_code.co_name}"
         line = at - frame.f_code.co_firstlineno + 1
@@ -213,7 +213,7 @@ def _place(error: Exception) -> tuple[FrameType | None, int]:
     return ours[-1] if ours else (None, 0)
 
 
-def _call(error: Exception, function: Callable) -> tuple[FrameType, int] | None:
+def call_from(function: Callable, error: Exception) -> tuple[FrameType, int] | None:
     """(frame, line) of the student's function itself, from which the call went out that raised."""
     code = getattr(function, "__code__", None)
     ours = [f for f in traceback.walk_tb(error.__traceback__) if f[0].f_code is code]

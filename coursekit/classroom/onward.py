@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from .attempt import call_from
 from .compare import mask
 from .course import course_here
 from .exercise import Exercise, Misfit, answer
@@ -56,14 +57,14 @@ def yours(function: Callable, *arguments: Any, course: Any) -> Any:
     triple is not written yet: the course's value is used here.
     4.5
     """
-    name = _name(function)
+    name, exercise = _name(function), _exercise(function)
     right = course(*_copies(arguments)) if callable(course) else course
     try:
-        value = _called(function, arguments, right)
+        value = _called(function, exercise, arguments, right)
     except _Unusable as reason:
         print(f"{name} {reason}: the course's value is used here.")
         return right
-    if unlike := _unlike(function, arguments, value, right):
+    if unlike := _unlike(function, exercise, arguments, value, right):
         print(f"{name}: yours {unlike}; yours is used here.")
     else:
         print(f"{name}: yours and the course's agree.")
@@ -95,13 +96,13 @@ def use(function: Callable, course: Callable) -> Callable:
     half is not written yet: the course's is used here.
     (4.0, 1.0)
     """
-    name = _name(function)
+    name, exercise = _name(function), _exercise(function)
     said: list[str] = []
 
     def either(*arguments):
         right = course(*_copies(arguments))
         try:
-            return _called(function, arguments, right)
+            return _called(function, exercise, arguments, right)
         except _Unusable as reason:
             if not said:
                 print(f"{name} {reason}: the course's is used here.")
@@ -111,7 +112,7 @@ def use(function: Callable, course: Callable) -> Callable:
     return either
 
 
-def _called(function: Callable, arguments: tuple, right: Any) -> Any:
+def _called(function: Callable, exercise: Exercise | None, arguments: tuple, right: Any) -> Any:
     """The function's value on copies of the arguments; _Unusable if one cannot go on with it."""
     try:
         with np.errstate(all="ignore"):
@@ -122,14 +123,13 @@ def _called(function: Callable, arguments: tuple, right: Any) -> Any:
             raise _Unusable("is not written yet") from None
         raise _Unusable(f"needs `{missing}`, which is not written yet") from None
     except Exception as error:
-        line = _line(function, error)
-        raise _Unusable(f"raises {type(error).__name__}{line} ({_short(error)})") from None
+        raise _Unusable(f"raises {type(error).__name__}{_line(function, error)} ({_short(error)})") from None
     try:
-        found = _parts(_exercise(function), value)
+        found = _parts(exercise, value)
     except Misfit as misfit:
         raise _Unusable(f"gives nothing to go on with ({misfit})") from None
-    expected = _parts(_exercise(function), right)
-    if not _same_shapes(_exercise(function), found, expected):
+    expected = _parts(exercise, right)
+    if not _same_shapes(exercise, found, expected):
         came, wanted = (", ".join(str(part.shape) for part in parts) for parts in (found, expected))
         raise _Unusable(f"returns shape {came} instead of {wanted}")
     if any(np.isnan(f).any() and not np.isnan(e).any() for f, e in zip(found, expected, strict=True)):
@@ -137,9 +137,8 @@ def _called(function: Callable, arguments: tuple, right: Any) -> Any:
     return value
 
 
-def _unlike(function: Callable, arguments: tuple, value: Any, right: Any) -> str:
+def _unlike(function: Callable, exercise: Exercise | None, arguments: tuple, value: Any, right: Any) -> str:
     """'' where two values agree (turns and free signs do not count), or how they differ."""
-    exercise = _exercise(function)
     found, expected = _parts(exercise, value), _parts(exercise, right)
     if exercise and "any_solution" in exercise.kinds:
         mine = exercise.value(found)  # arrays, where yours are lists
@@ -186,6 +185,7 @@ def _same_shapes(exercise: Exercise | None, found: list, expected: list) -> bool
 
 
 def _exercise(function: Callable) -> Exercise | None:
+    """The exercise of the function's name; looking it up costs a hundred calls of one, so it is done once."""
     course, name = course_here(), _name(function)
     return course.find(name)[1] if course.has(name) else None
 
@@ -200,11 +200,8 @@ def _name(function: Callable) -> str:
 
 def _line(function: Callable, error: Exception) -> str:
     """' in its line 3', counted from its def; '' if it cannot be told."""
-    code = getattr(function, "__code__", None)
-    for frame, line in reversed(list(traceback.walk_tb(error.__traceback__))):
-        if code is not None and frame.f_code is code:
-            return f" in its line {line - code.co_firstlineno + 1}"
-    return ""
+    found = call_from(function, error)
+    return f" in its line {found[1] - found[0].f_code.co_firstlineno + 1}" if found else ""
 
 
 def _short(error: Exception) -> str:
