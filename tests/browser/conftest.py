@@ -5,6 +5,7 @@ Where there is no browser the tests are skipped with the reason; with CI=true th
 
 import pytest
 
+from tests.browser.explorer import Explorer
 from tests.browser.lab import CHROMIUM_FLAGS, Lab, Notebook, chromium
 from tests.needs import absent, needed
 
@@ -57,3 +58,18 @@ def notebook(lab, browser):
     context = browser.new_context(viewport={"width": 1280, "height": 900})
     yield Notebook(lab, context.new_page())
     context.close()
+
+
+@pytest.fixture
+def opened(notebook, lab, request):
+    """Function: the explorer that this line of code opens, run and at rest."""
+
+    def run(name, robot, line):
+        code = "import numpy as np\nfrom coursekit import robots, view"
+        notebook.open(lab.write(f"{request.node.name}.ipynb", code, f"panel = {line}\npanel"))
+        notebook.run_all()
+        notebook.wait_view()
+        return Explorer(notebook, name, robot)
+
+    yield run
+    assert notebook.errors == []

@@ -38,10 +38,7 @@ class Explorer:
         self.page.get_by_role("button", name=name, exact=True).click()
 
     def settle(self):
-        """Wait until the kernel has the last value and the page its pose."""
-        self.page.wait_for_timeout(250)
-        self.notebook.idle()
-        self.notebook.rest()
+        self.notebook.settle()
 
     def assert_arm_stands_at(self, theta):
         """Every link of the arm in the page is where the kinematics put it."""

@@ -238,6 +238,12 @@ class Notebook:
             self.page.wait_for_timeout(200)
         return found
 
+    def settle(self):
+        """Wait until the kernel has the last slider value and the page its pose."""
+        self.page.wait_for_timeout(300)
+        self.idle()
+        self.rest()
+
     def rest(self):
         """Wait until no view has drawn a frame for half a second."""
         self.page.evaluate(

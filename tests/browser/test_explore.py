@@ -25,7 +25,7 @@ def opened(lab, open_page):
 @pytest.fixture
 def explorer(opened):
     opened.kernel("panel.reset()")
-    settle(opened)
+    opened.settle()
     opened.errors.clear()
     yield opened
     assert opened.errors == []
@@ -37,13 +37,6 @@ def sliders(notebook):
         "[role=slider]:not(.ck-scrub)", "all => all.map((one) => Number(one.getAttribute('aria-valuenow')))"
     )
     return np.radians(shown)
-
-
-def settle(notebook):
-    """Wait until the kernel has the last slider value and the page its pose."""
-    notebook.page.wait_for_timeout(300)
-    notebook.idle()
-    notebook.rest()
 
 
 def assert_tool_is_where_the_sliders_say(notebook, view=0):
@@ -77,14 +70,14 @@ def test_keyboard_and_drag_move_the_robot_exactly(explorer):
     explorer.page.locator("[role=slider]").nth(0).focus()
     for key in ("ArrowRight", "ArrowRight", "PageUp", "Shift+ArrowLeft"):
         explorer.page.keyboard.press(key)
-    settle(explorer)
+    explorer.settle()
     np.testing.assert_allclose(sliders(explorer)[0], np.radians(11.9))
     assert_tool_is_where_the_sliders_say(explorer)
     after_keys = explorer.pixels()
     assert after_keys != before
 
     drag(explorer, 1, 0.25)
-    settle(explorer)
+    explorer.settle()
     assert abs(np.degrees(sliders(explorer)[1]) - (-190 + 0.25 * 235)) < 4
     assert_tool_is_where_the_sliders_say(explorer)
     assert explorer.pixels() != after_keys
@@ -94,11 +87,11 @@ def test_number_box_takes_any_number_and_keeps_to_the_limits(explorer):
     box = explorer.page.locator(".ck-number").nth(4)
     box.fill("12.345")
     box.press("Enter")
-    settle(explorer)
+    explorer.settle()
     assert explorer.kernel("panel.values['theta'][4]") == pytest.approx(np.radians(12.345), abs=1e-15)
     box.fill("999")
     box.press("Enter")
-    settle(explorer)
+    explorer.settle()
     assert explorer.kernel("panel.values['theta'][4]") == pytest.approx(robots.kuka_kr6().q_max[4], abs=1e-12)
     assert_tool_is_where_the_sliders_say(explorer)
 
@@ -115,11 +108,11 @@ def test_the_switches_show_the_frames_and_reset_goes_back(explorer):
         .filter((l) => l.style.display !== 'none').map((l) => l.textContent).sort()"""
     few = page.evaluate(shown)
     page.get_by_label("standard DH frames").check()
-    settle(explorer)
+    explorer.settle()
     assert {f"{{s{k}}}" for k in range(7)} <= set(page.evaluate(shown))  # letters of axes may give way
     page.locator("[role=slider]").nth(2).press("PageUp")
     page.get_by_role("button", name="reset").click()
-    settle(explorer)
+    explorer.settle()
     assert page.evaluate(shown) == few
     np.testing.assert_allclose(sliders(explorer)[:6], robots.kuka_kr6().home, atol=1e-12)
     assert_tool_is_where_the_sliders_say(explorer)
@@ -130,7 +123,7 @@ def test_run_all_does_not_overwrite_what_a_later_cell_sets(notebook, lab):
     notebook.open(lab.write("later.ipynb", IMPORT, SHOW, later))
     notebook.run_all()
     notebook.wait_view()
-    settle(notebook)
+    notebook.settle()
     assert notebook.kernel("panel.values['theta'].tolist()") == [0.4, -0.3, 0.2, 0.1, -0.7, 1.1]
     assert_tool_is_where_the_sliders_say(notebook)
     assert notebook.errors == []
@@ -141,7 +134,7 @@ def test_a_second_view_and_a_reloaded_page_show_the_same_pose(notebook, lab):
     notebook.run_all()
     notebook.wait_view(2)
     notebook.page.locator("[role=slider]").nth(0).press("PageUp")
-    settle(notebook)
+    notebook.settle()
     expected = robots.kuka_kr6().fk(notebook.kernel("panel.values['theta'].tolist()"))
     for view in (0, 1):
         found = notebook.wait_transform(TOOL, expected, view)
@@ -155,7 +148,7 @@ def test_a_second_view_and_a_reloaded_page_show_the_same_pose(notebook, lab):
         found = notebook.wait_transform(TOOL, expected, view)
         np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12)
     drag(notebook, 3, 0.8)
-    settle(notebook)
+    notebook.settle()
     expected = robots.kuka_kr6().fk(notebook.kernel("panel.values['theta'].tolist()"))
     for view in (0, 1):
         found = notebook.wait_transform(TOOL, expected, view)
@@ -180,7 +173,7 @@ def test_running_the_cell_ten_times_leaves_one_panel(explorer):
     assert explorer.page.evaluate("() => globalThis[Symbol.for('coursekit.page.1')].evaluated") == 1
     assert alive(explorer, "globalThis[Symbol.for('coursekit.page.1')].MeshCat.Viewer.prototype") == 1
     explorer.page.locator("[role=slider]").nth(0).press("PageUp")
-    settle(explorer)
+    explorer.settle()
     assert_tool_is_where_the_sliders_say(explorer)
 
 
@@ -205,7 +198,7 @@ def test_after_a_restart_of_the_kernel_the_notebook_runs_again(notebook, lab):
     notebook.run_all()
     notebook.wait_view()
     notebook.page.locator("[role=slider]").nth(0).press("PageUp")
-    settle(notebook)
+    notebook.settle()
     assert_tool_is_where_the_sliders_say(notebook)
     assert notebook.page.locator(".ck-viewer").count() == 1
     assert notebook.page.evaluate("() => globalThis[Symbol.for('coursekit.page.1')].views.size") == 1
@@ -220,7 +213,7 @@ def test_one_robot_after_another(notebook, lab):
         home = arm.fk(arm.home)
         found = notebook.wait_transform(f"/ck/robot/{arm.n}/tool", home)
         np.testing.assert_allclose(found, home, rtol=0, atol=1e-12)
-        settle(notebook)
+        notebook.settle()
         visible = notebook.page.locator("[role=slider]:visible")
         assert visible.count() == arm.n
         drawn = notebook.page.evaluate(
@@ -247,7 +240,7 @@ def test_a_lost_webgl_context_comes_back(explorer):
     )
     before = explorer.pixels()
     explorer.page.locator("[role=slider]").nth(0).press("PageUp")
-    settle(explorer)
+    explorer.settle()
     assert explorer.pixels() != before
     assert_tool_is_where_the_sliders_say(explorer)
 

@@ -18,21 +18,6 @@ ON_PAGE = """(p) => {
 }"""
 
 
-@pytest.fixture
-def opened(notebook, lab, request):
-    """Function: the explorer that this line of code opens, run and at rest."""
-
-    def run(name, robot, line):
-        code = "import numpy as np\nfrom coursekit import robots, view"
-        notebook.open(lab.write(f"{request.node.name}.ipynb", code, f"panel = {line}\npanel"))
-        notebook.run_all()
-        notebook.wait_view()
-        return Explorer(notebook, name, robot)
-
-    yield run
-    assert notebook.errors == []
-
-
 def handle(explorer, label):
     return explorer.page.get_by_role("button", name=label, exact=True)
 

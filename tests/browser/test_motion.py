@@ -6,7 +6,6 @@ import pytest
 from coursekit import ik, jacobians, path, robots, rotations
 from coursekit.view import text
 from coursekit.view.explorers import singularities as loss
-from tests.browser.explorer import Explorer
 
 pytestmark = pytest.mark.browser
 
@@ -20,21 +19,6 @@ ARROW = """(path) => {
     const steps = [...path.split("/").filter((s) => s), "<object>"];
     return viewer.scene_tree.find(steps).object.children[0].matrix.elements;
 }"""
-
-
-@pytest.fixture
-def opened(notebook, lab, request):
-    """Function: the explorer that this line of code opens, run and at rest."""
-
-    def run(name, robot, line):
-        code = "import numpy as np\nfrom coursekit import robots, view"
-        notebook.open(lab.write(f"{request.node.name}.ipynb", code, f"panel = {line}\npanel"))
-        notebook.run_all()
-        notebook.wait_view()
-        return Explorer(notebook, name, robot)
-
-    yield run
-    assert notebook.errors == []
 
 
 def ask(explorer, expression):

@@ -25,16 +25,10 @@ def opened(lab, open_page):
 @pytest.fixture
 def explorer(opened):
     opened.kernel("panel.reset()")
-    settle(opened)
+    opened.settle()
     opened.errors.clear()
     yield opened
     assert opened.errors == []
-
-
-def settle(notebook):
-    notebook.page.wait_for_timeout(300)
-    notebook.idle()
-    notebook.rest()
 
 
 @pytest.mark.parametrize(
@@ -45,7 +39,7 @@ def test_numbers_are_read_as_people_type_them(explorer, typed, degrees):
     box = explorer.page.locator(".ck-number").first
     box.fill(typed)
     box.press("Enter")
-    settle(explorer)
+    explorer.settle()
     assert explorer.kernel("panel.values['theta'][0]") == pytest.approx(np.radians(degrees), abs=1e-14)
     assert explorer.page.locator(".ck-hint").first.inner_text() == ""
 
@@ -59,7 +53,7 @@ def test_what_is_no_number_or_too_large_is_told(explorer):
     box.fill("999")
     box.press("Enter")
     assert hint.inner_text() == "999 is beyond the limit, 170 deg"
-    settle(explorer)
+    explorer.settle()
     assert explorer.kernel("panel.values['theta'][0]") == pytest.approx(KR6.q_max[0], abs=1e-14)
 
 
@@ -69,7 +63,7 @@ def test_escape_takes_a_typed_number_back(explorer):
     explorer.page.keyboard.type("77")
     explorer.page.keyboard.press("Escape")
     explorer.page.keyboard.press("Tab")
-    settle(explorer)
+    explorer.settle()
     assert box.input_value() == "0" and explorer.kernel("panel.values['theta'][0]") == 0
 
 
@@ -129,9 +123,9 @@ def test_ghosts_stand_at_their_solutions_whatever_is_drawn_anew(notebook, lab):
     notebook.run_all()
     notebook.wait_view()
     notebook.page.get_by_label("Newton's way").check()
-    settle(notebook)
+    notebook.settle()
     notebook.page.get_by_role("slider", name="guess θ1").press("PageUp")
-    settle(notebook)
+    notebook.settle()
     pose = notebook.kernel("panel.values['pose'].tolist()")
     T = np.eye(4)
     T[:3, :3], T[:3, 3] = rotations.from_zyx(pose[3:]), pose[:3]

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import coursekit
+from coursekit.site.reference import offered
 
 ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -20,15 +21,6 @@ MODULES = sorted(
 )
 # What `coursekit` itself offers of the mathematics: the part that people meet first.
 FACE = [name for name in coursekit.__all__ if f"coursekit.kinematics.{name}" in MODULES]
-
-
-def functions_and_classes(module):
-    """(name, object) of what a module offers: its `__all__`, or else what is public and at home there."""
-    offered = getattr(module, "__all__", vars(module))
-    for name, thing in ((name, getattr(module, name)) for name in offered):
-        at_home = getattr(thing, "__module__", "").startswith(module.__name__)
-        if not name.startswith("_") and at_home and (inspect.isroutine(thing) or inspect.isclass(thing)):
-            yield name, thing
 
 
 def methods(thing):
@@ -44,14 +36,14 @@ def test_modules_functions_and_classes_are_explained(name):
     assert (module.__doc__ or "").strip(), f"{name} has no docstring"
     # a wrong function is explained by the hint it is there for, a draw by the words of its case
     if ".mistakes." not in name and ".exercises." not in name:
-        assert not [thing for thing, what in functions_and_classes(module) if not inspect.getdoc(what)]
+        assert not [thing for thing, what in offered(module) if not inspect.getdoc(what)]
 
 
 @pytest.mark.parametrize("name", FACE)
 def test_the_mathematics_is_explained_with_examples(name):
     module = getattr(coursekit, name)
     without = []
-    for thing, what in functions_and_classes(module):
+    for thing, what in offered(module):
         inner = [f"{thing}.{method}" for method, code in methods(what) if not inspect.getdoc(code)]
         own = inspect.getdoc(what) or ""
         without += inner + ([thing] if inspect.isfunction(what) and ">>>" not in own else [])

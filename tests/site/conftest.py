@@ -12,14 +12,11 @@ import pytest
 
 from coursekit import site
 from tests.browser.conftest import browser, pytest_collection_modifyitems  # noqa: F401
+from tests.needs import absent
 from tests.site.pyodide import Unavailable, take
 from tests.site.server import Served
 
 ROOT = Path(__file__).resolve().parents[2]
-
-
-def missing(reason):
-    (pytest.fail if os.environ.get("CI") == "true" else pytest.skip)(reason)
 
 
 @pytest.fixture(scope="session")
@@ -38,7 +35,7 @@ def pyodide(pytestconfig):
 def pages(request, tmp_path_factory):
     """The folder of a site; with what runs in the browser if Pyodide's files are here, or must be (in CI)."""
     if not find_spec("jupyter_server_mathjax") or not find_spec("jupyterlite_core"):
-        missing(f"the site's packages are not installed ({site.tools.INSTALL})")
+        absent(f"the site's packages are not installed ({site.tools.INSTALL})")
     out = tmp_path_factory.mktemp("site") / "out"
     try:
         files = request.getfixturevalue("pyodide")

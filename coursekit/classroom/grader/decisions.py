@@ -6,7 +6,6 @@ fits nobody is an error, with file and line: a misprint must not pass in silence
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -15,6 +14,7 @@ from pathlib import Path
 
 from ..course import Course
 from ..exercise import nearest
+from ..spreadsheet import rows
 
 OVERRIDES = ("student", "exercise", "points", "reason")
 EXTENSIONS = ("student", "notebook", "until", "reason")
@@ -92,22 +92,8 @@ def _rows(path: Path, columns: tuple[str, ...]) -> Iterator[tuple[str, dict[str,
     """(file and line, row) of a table, if it is there."""
     if not path.exists():
         return
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError:
-        raise ValueError(f"{path} is not UTF-8: export it as CSV UTF-8") from None
-    first = text.partition("\n")[0]
-    table = csv.DictReader(text.splitlines(), delimiter=";" if first.count(";") > first.count(",") else ",")
-    names = [name.strip().lower() for name in table.fieldnames or ()]
-    if not set(columns) <= set(names):
-        raise ValueError(
-            f"{path}, line 1: the columns {', '.join(columns)} are expected, not {first.strip()!r}"
-        )
-    table.fieldnames = names
-    for row in table:
-        one = {column: (row.get(column) or "").strip() for column in columns}
-        if any(one.values()):
-            yield f"{path}, line {table.line_num}", one
+    for line, row in rows(path, columns, needed=columns):
+        yield f"{path}, line {line}", row
 
 
 def _one_of(where: str, row: dict[str, str], column: str, known) -> str:
