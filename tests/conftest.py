@@ -13,6 +13,8 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"
 
 from coursekit.classroom.lab import private_folders  # noqa: E402
+from tests.browser.lab import CHROMIUM_FLAGS, chromium  # noqa: E402
+from tests.needs import absent, needed  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[1]
 # One folder per worker: two IPython kernels starting at once fight over one history database.
@@ -37,6 +39,28 @@ def pytest_xdist_make_scheduler(config, log):
             return "tests/browser" if file.startswith(("tests/browser/", "tests/site/")) else file
 
     return Together(config, log)
+
+
+def pytest_collection_modifyitems(items):
+    """A test that fails here is tried again: a browser on a busy machine can stall for a minute.
+
+    What is wrong in the course fails every time. pytest's summary counts what was run again.
+    """
+    for item in items:
+        if item.get_closest_marker("browser") or item.get_closest_marker("hub"):
+            item.add_marker(pytest.mark.flaky(reruns=2, reruns_delay=5))
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """One Chromium for all tests of a worker: two of Playwright's loops do not go into one process."""
+    sync_playwright = needed("playwright.sync_api").sync_playwright
+    if not chromium():
+        absent("no Chromium on the PATH (set CHROMIUM to its path)")
+    with sync_playwright() as playwright:
+        running = playwright.chromium.launch(executable_path=chromium(), args=list(CHROMIUM_FLAGS))
+        yield running
+        running.close()
 
 
 def pytest_unconfigure():

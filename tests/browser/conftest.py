@@ -6,29 +6,7 @@ Where there is no browser the tests are skipped with the reason; with CI=true th
 import pytest
 
 from tests.browser.explorer import Explorer
-from tests.browser.lab import CHROMIUM_FLAGS, Lab, Notebook, chromium
-from tests.needs import absent, needed
-
-
-@pytest.fixture(scope="session")
-def browser():
-    sync_playwright = needed("playwright.sync_api").sync_playwright
-    if not chromium():
-        absent("no Chromium on the PATH (set CHROMIUM to its path)")
-    with sync_playwright() as playwright:
-        running = playwright.chromium.launch(executable_path=chromium(), args=list(CHROMIUM_FLAGS))
-        yield running
-        running.close()
-
-
-def pytest_collection_modifyitems(items):
-    """A test that fails here is tried again: a browser on a busy machine can stall for a minute.
-
-    What is wrong in the course fails every time. pytest's summary counts what was run again.
-    """
-    for item in items:
-        if item.get_closest_marker("browser") or item.get_closest_marker("hub"):
-            item.add_marker(pytest.mark.flaky(reruns=2, reruns_delay=5))
+from tests.browser.lab import Lab, Notebook
 
 
 @pytest.fixture(scope="session")

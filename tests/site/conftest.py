@@ -11,7 +11,6 @@ from pathlib import Path
 import pytest
 
 from coursekit import site
-from tests.browser.conftest import browser, pytest_collection_modifyitems  # noqa: F401
 from tests.needs import absent
 from tests.site.pyodide import Unavailable, take
 from tests.site.server import Served

@@ -13,7 +13,7 @@ import pytest
 from coursekit.classroom.course import the_course
 from coursekit.site import wheels
 from tests.classroom import leaks
-from tests.site.conftest import missing
+from tests.needs import absent
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
@@ -22,7 +22,7 @@ ROOT = HERE.parents[1]
 def in_node(script, *arguments, seconds=1800):
     node = shutil.which("node")
     if not node:
-        missing("node is not installed")
+        absent("node is not installed")
     command = [node, str(HERE / script), *map(str, arguments)]
     return subprocess.run(command, capture_output=True, text=True, timeout=seconds)
 
