@@ -91,6 +91,8 @@ def check(name: str, function: Callable, show: str | None = None) -> None:
 def diagnose(name: str, function: Callable) -> Diagnosis:
     """The same as data, with everything that can be said; prints nothing and remembers nothing.
 
+    name and function as in `check`.
+
     >>> from coursekit import classroom
     >>> classroom.diagnose("home_pose", lambda lengths: None).kind
     'misfit'
@@ -101,6 +103,8 @@ def diagnose(name: str, function: Callable) -> Diagnosis:
 
 def example(name: str, number: int) -> list:
     """The arguments of a public example, for a call of your own: `fk_dh(*example("fk_dh", 0))`.
+
+    name of the exercise, number of the example from 0.
 
     >>> from coursekit import classroom
     >>> len(classroom.example("dh_transform", 0))

@@ -193,7 +193,7 @@ class Table:
 
 
 def joint_types(types: Iterable[str] | None, n: int) -> tuple[str, ...]:
-    """n words "revolute" / "prismatic" from words or letters; None means all revolute.
+    """n words "revolute" / "prismatic" from `types`: words, letters, or None, which means all revolute.
 
     Raises ValueError for another number of joints or an unknown word.
 
@@ -218,10 +218,19 @@ def from_axes(
 ) -> Table:
     """The DH table of an arm that is given by its axes, made by common normals.
 
-    w (n, 3) directions, q (n, 3) points on the axes (for a slide: where it is to stand), M (4, 4) pose of the
-    tool at q = 0; metres. Every arm without screws of a pitch has such a table, and many: what the procedure
-    leaves free, and how it is chosen here, `steps` tells row by row. Raises ValueError as Robot.from_axes.
+    Every arm without screws of a pitch has such a table, and many: what the procedure leaves free, and how it
+    is chosen here, `steps` tells row by row. Raises ValueError as Robot.from_axes.
 
+    Parameters
+    ----------
+    w : (n, 3), directions of the axes
+    q : (n, 3), points on the axes, metres; for a slide: where it is to stand
+    M : (4, 4), pose of the tool at q = 0
+    joint_types : n words, "revolute" or "prismatic"; None: all revolute
+    convention : "standard" or "modified"
+
+    Examples
+    --------
     >>> w, q = [[0, 0, 1], [0, 1, 0]], [[0, 0, 0], [0.1, 0, 0.4]]
     >>> table = from_axes(w, q, np.eye(4), convention="modified")
     >>> table.a.tolist(), table.alpha.round(4).tolist(), table.d.tolist()
@@ -238,8 +247,18 @@ def from_axes(
 
 
 def steps(w: ArrayLike, q: ArrayLike, M: ArrayLike) -> list[Normal]:
-    """How `from_axes` went from axis to axis: one `Normal` per row of the standard table, as data to show.
+    """How `from_axes` went from axis to axis, as data to show.
 
+    Parameters
+    ----------
+    w, q, M : as in `from_axes`
+
+    Returns
+    -------
+    list of n `Normal`, one per row of the standard table
+
+    Examples
+    --------
     >>> [(row.case, row.free) for row in steps([[0, 0, 1], [0, 0, 1]], [[0, 0, 0], [1, 0, 0]], np.eye(4))]
     [('parallel', 'the place along the axes: that of the frame before'),
      ('parallel', 'the place along the axes: that of the tool')]

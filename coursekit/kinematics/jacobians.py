@@ -34,10 +34,21 @@ __all__ = [
 def column(kind: str, w: ArrayLike, q: ArrayLike, T: ArrayLike) -> np.ndarray:
     """One column of J_b: the tool's twist, seen from it, while one joint alone moves at 1 rad/s or 1 m/s.
 
-    kind "revolute" or "prismatic"; w (3,) its axis of length 1 and q (3,) a point on it, where they are now,
-    and T (4, 4) the tool, all in the space frame -> (6,), (omega; v). A slide needs no point. Lynch & Park,
-    section 5.1.
+    Lynch & Park, section 5.1.
 
+    Parameters
+    ----------
+    kind : "revolute" or "prismatic"
+    w : (3,), the joint's axis where it is now, of length 1, space frame
+    q : (3,), a point on it, metres; a slide needs none
+    T : (4, 4), the tool in the space frame
+
+    Returns
+    -------
+    V_b : (6,), rows (omega; v)
+
+    Examples
+    --------
     >>> column("revolute", [0, 0, 1], [0, 0, 0], np.eye(4) + np.eye(4, k=3)).tolist()
     [0.0, 0.0, 1.0, 0.0, 1.0, 0.0]
     """
@@ -73,9 +84,18 @@ def skew_theory(robot: Robot, theta: ArrayLike) -> np.ndarray:
 def of_hinges(axes: ArrayLike, origins: ArrayLike, tool: ArrayLike) -> np.ndarray:
     """Column i is (w_i; w_i x (p - o_i)): a hinge about the direction w_i through the point o_i moves p.
 
-    axes (..., n, 3) unit vectors, origins (..., n, 3) and tool (..., 3) metres, all along the base -> J
-    (..., 6, n). The tool may be any point that all n joints carry, such as the weight of a link.
+    Parameters
+    ----------
+    axes : (..., n, 3), unit vectors along the base
+    origins : (..., n, 3), metres, along the base
+    tool : (..., 3), the point p, metres; any that all n joints carry, such as the weight of a link
 
+    Returns
+    -------
+    J : (..., 6, n), rows (omega; v)
+
+    Examples
+    --------
     >>> of_hinges([[0, 0, 1], [0, 0, 1]], [[0, 0, 0], [0.5, 0, 0]], [0.75, 0, 0])[4].tolist()
     [0.75, 0.25]
     """
@@ -106,13 +126,25 @@ def by_matrix_derivative(robot: Robot, theta: ArrayLike) -> np.ndarray:
 def transform_rate(
     T_left: ArrayLike, S: ArrayLike, theta: ArrayLike, T_right: ArrayLike
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Differentiate T = T_left H T_right, H = e^[S]theta, by theta. -> (T_dot (..., 4, 4), column (..., 6)).
+    """Differentiate T = T_left H T_right, H = e^[S]theta, by theta.
 
     Only H depends on theta, and H_dot = [S] H. Behind T_dot, T_o takes the rotation of T back: then [omega]
-    stands above left and v of the tool point in the last column, both along the base axes. S (..., 6) is the
-    screw of the joint in the frame that T_left leads to, theta (...) rad or m; T_left, T_right (..., 4, 4).
+    stands above left and v of the tool point in the last column, both along the base axes.
     Innopolis assignment 3 (2020), section 3.
 
+    Parameters
+    ----------
+    T_left, T_right : (..., 4, 4)
+    S : (..., 6), screw of the joint in the frame that T_left leads to
+    theta : (...), rad or m
+
+    Returns
+    -------
+    T_dot : (..., 4, 4)
+    column : (..., 6), rows (omega; v)
+
+    Examples
+    --------
     >>> tool = lie.exp6([0, 0, 0, 0.5, 0, 0])
     >>> transform_rate(np.eye(4), [0, 0, 1, 0, 0, 0], 0.0, tool)[1].tolist()
     [0.0, 0.0, 1.0, 0.0, 0.5, 0.0]
@@ -129,10 +161,21 @@ def transform_rate(
 def by_differences(robot: Robot, theta: ArrayLike, step: float = 1e-5) -> np.ndarray:
     """Move each joint a step forwards and a step back, and divide by what lies between.
 
-    theta (..., n) -> J (..., 6, n), rows (omega; v); good to 1e-10 with the default step. The
-    difference of two rotations is the rotation vector between them, log(R_+ R_-^T). Raises ValueError for a
-    step that is not positive.
+    Good to 1e-10 with the default step. The difference of two rotations is the rotation vector between them,
+    log(R_+ R_-^T). Raises ValueError for a step that is not positive.
 
+    Parameters
+    ----------
+    robot : Robot
+    theta : (..., n), rad or m
+    step : rad or m
+
+    Returns
+    -------
+    J : (..., 6, n), rows (omega; v)
+
+    Examples
+    --------
     >>> from coursekit import robots
     >>> by_differences(robots.planar_2r(1, 1), [0, 0])[[2, 3, 4]].round(6).tolist()
     [[1.0, 1.0], [0.0, 0.0], [2.0, 1.0]]

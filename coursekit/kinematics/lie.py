@@ -120,9 +120,19 @@ def log3(R: ArrayLike) -> np.ndarray:
 def slerp(R_0: ArrayLike, R_1: ArrayLike, t: ArrayLike) -> np.ndarray:
     """On the short way from one attitude to another, by one turn at constant speed: R_0 e^[t log(R_0^T R_1)].
 
-    R_0, R_1 (..., 3, 3), t (...) from 0 to 1 -> R (..., 3, 3). Half a turn apart there are two: that of
-    `log3` is taken. Source: Lynch & Park, section 9.2.1.
+    Half a turn apart there are two short ways: that of `log3` is taken. Source: Lynch & Park, section 9.2.1.
 
+    Parameters
+    ----------
+    R_0, R_1 : (..., 3, 3)
+    t : (...), from 0 to 1
+
+    Returns
+    -------
+    R : (..., 3, 3)
+
+    Examples
+    --------
     >>> half = slerp(np.eye(3), exp3([0, 0, 1.0]), 0.5)
     >>> log3(half).round(12).tolist()
     [0.0, 0.0, 0.5]

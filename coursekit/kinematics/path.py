@@ -203,14 +203,25 @@ def follow(robot: Robot, T: ArrayLike) -> np.ndarray:
 
 
 def trace(robot: Robot, T: ArrayLike, theta0: ArrayLike, rows: str = "all") -> np.ndarray:
-    """Follows the poses T by numeric inverse kinematics, from pose to pose. -> (..., m, n), rad.
+    """Follows poses by numeric inverse kinematics, from pose to pose, for any arm.
 
-    T (m, 4, 4); theta0 (..., n) where each path starts from, near a solution of the first pose: for all that
-    are found, `ik.search(robot, T[0]).theta`. rows "linear": only the positions count. Each pose is solved
-    from the solution before, so the path is continuous, for any arm. NaN from where a pose is not reached or
-    a joint turns by more than a quarter. A redundant arm that comes back to a pose need not come back to the
-    configuration.
+    Each pose is solved from the solution before, so the path is continuous. A redundant arm that comes back
+    to a pose need not come back to the configuration.
 
+    Parameters
+    ----------
+    robot : Robot
+    T : (m, 4, 4), the poses
+    theta0 : (..., n), rad or m, where each path starts, near a solution of the first pose
+        for all that are found: `ik.search(robot, T[0]).theta`
+    rows : "all", or "linear": only the positions count
+
+    Returns
+    -------
+    q : (..., m, n), NaN from where a pose is not reached or a joint turns by more than a quarter
+
+    Examples
+    --------
     >>> from coursekit import robots
     >>> panda = robots.franka_panda()
     >>> trace(panda, [panda.M, panda.M], np.full((3, 7), 0.1)).shape
@@ -239,11 +250,22 @@ def points_reached(q: ArrayLike) -> np.ndarray:
 
 
 def joint_rates(q: ArrayLike, points: ArrayLike, speed: float) -> np.ndarray:
-    """Joint rates when the tool runs along the points at constant speed. -> (..., m - 1, n), rad/s.
+    """Joint rates when the tool runs along the points at constant speed.
 
-    q (..., m, n) continuous joint path, points (m, d) metres, speed in m/s. Between two points the joints
-    turn by dq in the time that the tool takes: rate = dq / (step / speed).
+    Between two points the joints turn by dq in the time that the tool takes: rate = dq / (step / speed).
 
+    Parameters
+    ----------
+    q : (..., m, n), rad or m, a continuous joint path
+    points : (m, d), metres
+    speed : m/s
+
+    Returns
+    -------
+    rates : (..., m - 1, n), rad/s or m/s
+
+    Examples
+    --------
     >>> joint_rates([[0.0], [0.2]], [[0, 0, 0], [0, 0, 0.1]], speed=0.5).round(12).tolist()
     [[1.0]]
     """
@@ -268,13 +290,24 @@ class SpeedLimit:
 
 
 def speed_limit(q: ArrayLike, points: ArrayLike, v_max: ArrayLike) -> SpeedLimit:
-    """How fast the tool may go along the points at constant speed. -> SpeedLimit.
+    """How fast the tool may go along the points at constant speed.
 
-    q (..., m, n) joint path, continuous (`follow` unwraps it: an angle that jumps by 2 pi would look like a
-    very fast joint); points (m, d) metres; v_max: one bound for every joint or n of them, rad/s.
     At 1 m/s the joints turn at the rates dq/ds; the speed that brings the worst |dq/ds| / v_max to 1 is the
     limit. NaN in q or v_max gives NaN. Raises ValueError for a bound that is not positive.
 
+    Parameters
+    ----------
+    q : (..., m, n), rad or m, a continuous joint path
+        `follow` unwraps it: an angle that jumps by 2 pi would look like a very fast joint
+    points : (m, d), metres
+    v_max : () or (n,), rad/s or m/s, one bound for every joint or one for each
+
+    Returns
+    -------
+    SpeedLimit
+
+    Examples
+    --------
     >>> limit = speed_limit([[0.0, 0.0], [0.1, -0.4]], [[0, 0, 0], [0, 0, 0.1]], v_max=2)
     >>> float(limit.speed), int(limit.joint), int(limit.index)
     (0.5, 1, 0)

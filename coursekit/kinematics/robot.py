@@ -145,10 +145,17 @@ class Robot:
     def from_screws(
         cls, S: ArrayLike, M: ArrayLike, joint_types: Iterable[str] | None = None, **more: Unpack[About]
     ) -> Robot:
-        """From space screws S (6, n) and the home pose M (4, 4). Other fields by name (see the class).
+        """From space screws and the home pose. Errors as the class.
 
-        Raises ValueError where a screw has no direction or none of unit length, or M is not in SE(3).
+        Parameters
+        ----------
+        S : (6, n), rows (omega; v), metres
+        M : (4, 4), pose of the tool at theta = 0
+        joint_types : n words, "revolute" or "prismatic"; None: as the screws say
+        **more : other fields of the class
 
+        Examples
+        --------
         >>> robot = Robot.from_screws([[0], [0], [1], [0], [0], [0]], np.eye(4), name="turntable")
         >>> robot.joint_types
         ('revolute',)
@@ -164,12 +171,21 @@ class Robot:
         joint_types: Iterable[str] | None = None,
         **more: Unpack[About],
     ) -> Robot:
-        """From what one reads off a drawing: directions w (n, 3) and points q (n, 3) on the axes, metres.
+        """From what one reads off a drawing: directions of the axes and points on them.
 
         A revolute joint gets S = (w; -w x q), a prismatic one S = (0; w). Directions are scaled to length 1.
         The points are the joints' `places`: frames and pictures have them there, unless a DH table is given,
         which says it for itself. Raises ValueError where a direction has length zero.
 
+        Parameters
+        ----------
+        w, q : (n, 3), directions, and points in metres
+        M : (4, 4), pose of the tool at theta = 0
+        joint_types : n words, "revolute" or "prismatic"; None: all revolute
+        **more : other fields of the class
+
+        Examples
+        --------
         >>> robot = Robot.from_axes([[0, 0, 2]], [[1, 0, 0]], np.eye(4))
         >>> robot.S[:, 0].tolist()
         [0.0, 0.0, 1.0, 0.0, -1.0, 0.0]
@@ -183,16 +199,15 @@ class Robot:
 
     @classmethod
     def from_dh(cls, table: dh.Table, **more: Unpack[About]) -> Robot:
-        """From a `dh.Table` of either convention; the other table is made from it.
+        """From a `dh.Table` of either convention, which makes the other; `more` fields by name.
 
         >>> table = dh.Table(a=[0.5, 0.25], alpha=[0, 0], d=[0, 0], theta=[0, 0])
         >>> Robot.from_dh(table).M[:3, 3].tolist()
         [0.75, 0.0, 0.0]
         """
         if not isinstance(table, dh.Table):
-            raise ValueError(
-                f"{more.get('name', 'robot')}: from_dh needs a dh.Table, got {type(table).__name__}"
-            )
+            name = more.get("name", "robot")
+            raise ValueError(f"{name}: from_dh needs a dh.Table, got {type(table).__name__}")
         S, M = table.screws()
         more.setdefault("standard_dh", table.to_standard())
         more.setdefault("modified_dh", table.to_modified())
@@ -200,13 +215,20 @@ class Robot:
 
     @classmethod
     def from_urdf(cls, path: str | Path, tip: str | None = None, **more: Unpack[About]) -> Robot:
-        """From a URDF: the chain from the root link to the link `tip`, whose frame is the tool frame.
+        """From a URDF: the chain from the root link to one link, whose frame is the tool frame.
 
-        path: the name of a file (or its text). tip: None, where only one link carries no other. Revolute,
-        continuous, prismatic and fixed joints; limits and speeds as given (a speed of 0 is unknown); joints
-        beside the chain do not matter. Raises ValueError that names the element and its line: for a mimic,
-        floating or planar joint, links without a chain, numbers that are none, a document type, no XML.
+        Revolute, continuous, prismatic and fixed joints; limits and speeds as given (a speed of 0 is
+        unknown); joints beside the chain do not matter. Raises ValueError that names the element and its
+        line: mimic, floating or planar joint, links without a chain, no numbers, a document type, no XML.
 
+        Parameters
+        ----------
+        path : name of a file, or its text
+        tip : name of a link; None where only one link carries no other
+        **more : other fields of the class
+
+        Examples
+        --------
         >>> robot = Robot.from_urdf('''<robot name="turntable"> <link name="floor"/> <link name="plate"/>
         ...     <joint name="turn" type="continuous"> <parent link="floor"/> <child link="plate"/>
         ...         <origin xyz="0 0 0.3"/> <axis xyz="0 0 1"/> </joint> </robot>''')
@@ -318,9 +340,10 @@ class Robot:
         return lie.adjoint(lie.inverse(self.fk(theta))) @ self.jacobian_space(theta)
 
     def jacobian_geometric(self, theta: ArrayLike) -> np.ndarray:
-        """Angular velocity and velocity of the tool point, both along the base axes: (..., n) -> (..., 6, n).
+        """Angular velocity and velocity of the tool point, both along the base axes.
 
-        Rows (w; v): v = v_s + w x p moves the reference point of the space Jacobian to the tool point p.
+        theta (..., n) -> (..., 6, n), rows (w; v): v = v_s + w x p moves the reference point of the space
+        Jacobian to the tool point p.
         """
         return self._jacobian(theta, about_tool=True)
 
@@ -362,9 +385,7 @@ class Robot:
         """
         theta = checks.joint_angles(theta, self.n, self.name)
         below, above = self.q_min - AT_LIMIT - theta, theta - self.q_max - AT_LIMIT
-        turns = np.where(
-            below > 0, np.ceil(below / (2 * np.pi)), np.where(above > 0, -np.ceil(above / (2 * np.pi)), 0)
-        )
+        turns = np.ceil(np.maximum(below, 0) / (2 * np.pi)) - np.ceil(np.maximum(above, 0) / (2 * np.pi))
         turned = theta + 2 * np.pi * turns
         revolute = np.array([kind == "revolute" for kind in self.joint_types])
         return np.where(revolute & self._between_limits(turned), turned, theta)

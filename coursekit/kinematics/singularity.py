@@ -66,7 +66,7 @@ def factors(robot: Robot, theta: ArrayLike) -> dict[str, np.ndarray]:
 
 
 def relative_factors(robot: Robot, theta: ArrayLike) -> dict[str, np.ndarray]:
-    """The factors, each over a bound on its size: free of scale, between -1 and 1. Shapes as factors.
+    """The factors, each over a bound on its size: free of scale, in -1 to 1. theta and shapes as factors.
 
     wrist and elbow become the sine of the angle to the singular pose; shoulder becomes the distance of c from
     the singular surface over the farthest it could be.
@@ -81,11 +81,22 @@ def relative_factors(robot: Robot, theta: ArrayLike) -> dict[str, np.ndarray]:
 
 
 def classify(robot: Robot, theta: ArrayLike, tol: float = 1e-6) -> tuple[str, ...]:
-    """Names of the singularities at one configuration. theta (6,) -> some of "wrist", "elbow", "shoulder".
+    """Names of the singularities at one configuration.
 
-    A name is given where the size of its relative factor is at most tol (1e-6: about a millionth of a
-    radian or of the arm's reach). An empty tuple means: regular. Raises ValueError as factors does.
+    A name is given where the size of its relative factor is at most tol. Raises ValueError as factors does.
 
+    Parameters
+    ----------
+    robot : Robot
+    theta : (6,), rad
+    tol : about a millionth of a radian, or of the arm's reach
+
+    Returns
+    -------
+    names : some of "wrist", "elbow", "shoulder"; an empty tuple means regular
+
+    Examples
+    --------
     >>> from coursekit import robots
     >>> classify(robots.kuka_kr10_report(), [0, 0, 0, 0, 0, 0])
     ('wrist', 'elbow')
@@ -97,9 +108,20 @@ def classify(robot: Robot, theta: ArrayLike, tol: float = 1e-6) -> tuple[str, ..
 def aligned(robot: Robot, theta: ArrayLike, tol: float = 1e-6) -> np.ndarray:
     """Whether the first and the last axis are one line: "alignment", a special shoulder singularity.
 
-    theta (..., n) -> bool (...). The two screws are then equal up to sign; tol bounds each component of their
-    difference (rad, m).
+    The two screws are then equal up to sign.
 
+    Parameters
+    ----------
+    robot : Robot
+    theta : (..., n), rad or m
+    tol : bound on each component of their difference, rad and m
+
+    Returns
+    -------
+    bool (...)
+
+    Examples
+    --------
     >>> from coursekit import robots
     >>> report = robots.kuka_kr10_report()
     >>> bool(aligned(report, [0, -np.pi / 6, -2.2829525304720546, 0, 1.2357549792754567, 0]))
@@ -124,8 +146,20 @@ def sigma_min(robot: Robot, theta: ArrayLike) -> np.ndarray:
 
 
 def rank(robot: Robot, theta: ArrayLike, tol: float = 1e-9) -> np.ndarray:
-    """How many independent motions there are: singular values of J_b above tol. theta (..., n) -> int (...).
+    """How many independent motions there are: singular values of J_b above a bound.
 
+    Parameters
+    ----------
+    robot : Robot
+    theta : (..., n), rad or m
+    tol : the bound, metres and radians
+
+    Returns
+    -------
+    int (...)
+
+    Examples
+    --------
     >>> from coursekit import robots
     >>> int(rank(robots.kuka_kr10_report(), [0, 0, 0, 0, 0, 0]))
     4
@@ -168,8 +202,20 @@ def weakest_motion(robot: Robot, theta: ArrayLike) -> np.ndarray:
 
 
 def lost_motions(robot: Robot, theta: ArrayLike, tol: float = 1e-9) -> np.ndarray:
-    """Every direction that is lost at one configuration. theta (n,) -> (6 - rank, 6), rows as in lost_motion.
+    """Every direction that is lost at one configuration.
 
+    Parameters
+    ----------
+    robot : Robot
+    theta : (n,), rad or m
+    tol : as in `rank`
+
+    Returns
+    -------
+    V : (6 - rank, 6), rows as in `lost_motion`
+
+    Examples
+    --------
     >>> from coursekit import robots
     >>> lost_motions(robots.kuka_kr10_report(), [0, 0, 0, 0, 0, 0]).shape
     (2, 6)

@@ -25,12 +25,23 @@ MISS = 1e-9  # how far two lengths may differ (relative) for subproblems 1 and 2
 
 
 def subproblem1(k: ArrayLike, x: ArrayLike, y: ArrayLike) -> np.ndarray:
-    """The turn about k that carries x to y: rot(k, t) x = y. k, x, y (..., 3) -> t (...) rad in (-pi, pi].
+    """The turn about k that carries x to y: rot(k, t) x = y.
 
     With x' and y' for the parts across the axis: cos t is along x' . y', sin t along k . (x' cross y').
-    NaN where x and y are not equally far from the axis and equally high along it: no turn does it. 0 where
-    both lie on the axis: every turn does it.
 
+    Parameters
+    ----------
+    k : (..., 3), unit vector
+    x, y : (..., 3)
+
+    Returns
+    -------
+    t : (...), rad in (-pi, pi]
+        NaN where x and y are not equally far from the axis and equally high along it: no turn does it.
+        0 where both lie on the axis: every turn does it.
+
+    Examples
+    --------
     >>> round(float(subproblem1([0, 0, 1], [1, 0, 5], [0, 1, 5])), 6)
     1.570796
     """
@@ -44,14 +55,24 @@ def subproblem1(k: ArrayLike, x: ArrayLike, y: ArrayLike) -> np.ndarray:
 
 
 def subproblem2(k1: ArrayLike, k2: ArrayLike, x: ArrayLike, y: ArrayLike) -> np.ndarray:
-    """The turns with rot(k1, t1) rot(k2, t2) x = y, for two axes that meet in the origin. -> (..., 2, 2) rad.
+    """The turns with rot(k1, t1) rot(k2, t2) x = y, for two axes that meet in the origin.
 
-    Row i is the solution (t1, t2) number i. In between, the point is z = rot(k2, t2) x = rot(k1, -t1) y:
-    where the circle of x about k2 meets the circle of y about k1. z = a k1 + b k2 + g k1 cross k2, with a and
-    b from the heights k1 . z = k1 . y and k2 . z = k2 . x, and g = +- what the length of y leaves. Circles
-    that touch give the solution twice, circles that do not meet give NaN. Raises ValueError for parallel
-    axes.
+    In between, the point is z = rot(k2, t2) x = rot(k1, -t1) y: where the circle of x about k2 meets the
+    circle of y about k1. z = a k1 + b k2 + g k1 cross k2, with a and b from the heights k1 . z = k1 . y and
+    k2 . z = k2 . x, and g = +- what the length of y leaves. Raises ValueError for parallel axes.
 
+    Parameters
+    ----------
+    k1, k2 : (..., 3), unit vectors
+    x, y : (..., 3)
+
+    Returns
+    -------
+    t : (..., 2, 2), rad; row i is the solution (t1, t2) number i
+        Circles that touch give the solution twice, circles that do not meet give NaN.
+
+    Examples
+    --------
     >>> subproblem2([0, 0, 1], [0, 1, 0], [0, 0, 1], [0, 1, 0]).round(4).tolist()
     [[1.5708, 1.5708], [-1.5708, -1.5708]]
     """
@@ -76,11 +97,23 @@ def subproblem2(k1: ArrayLike, k2: ArrayLike, x: ArrayLike, y: ArrayLike) -> np.
 
 
 def subproblem3(k: ArrayLike, x: ArrayLike, y: ArrayLike, distance: ArrayLike) -> np.ndarray:
-    """The turns about k that bring x to a distance from y: |y - rot(k, t) x| = distance. -> (..., 2) rad.
+    """The turns about k that bring x to a distance from y: |y - rot(k, t) x| = distance.
 
     Squared, it is subproblem 4: y . rot(k, t) x = (|x|^2 + |y|^2 - distance^2) / 2. The law of cosines is the
     special case with x and y in one plane: the elbow of an arm.
 
+    Parameters
+    ----------
+    k : (..., 3), unit vector
+    x, y : (..., 3)
+    distance : (...), in the unit of x and y
+
+    Returns
+    -------
+    t : (..., 2), rad; as in `subproblem4`
+
+    Examples
+    --------
     >>> subproblem3([0, 0, 1], [1, 0, 0], [1, 0, 0], np.sqrt(2)).round(6).tolist()
     [-1.570796, 1.570796]
     """
@@ -90,12 +123,23 @@ def subproblem3(k: ArrayLike, x: ArrayLike, y: ArrayLike, distance: ArrayLike) -
 
 
 def subproblem4(h: ArrayLike, k: ArrayLike, x: ArrayLike, d: ArrayLike) -> np.ndarray:
-    """The turns about k that bring x to a plane: h . rot(k, t) x = d. h, k, x (..., 3) -> (..., 2) rad.
+    """The turns about k that bring x to a plane: h . rot(k, t) x = d.
 
     With Rodrigues' formula: a cos t + b sin t = d - (h . k)(k . x), where a = h . x - (h . k)(k . x) and
-    b = h . (k cross x). Two roots; the same twice where the circle of x touches the plane, NaN where it
-    misses.
+    b = h . (k cross x).
 
+    Parameters
+    ----------
+    h, k, x : (..., 3); k is a unit vector
+    d : (...)
+
+    Returns
+    -------
+    t : (..., 2), rad
+        Two roots; the same twice where the circle of x touches the plane, NaN where it misses.
+
+    Examples
+    --------
     >>> subproblem4([1, 0, 0], [0, 0, 1], [2, 0, 0], 1.0).round(6).tolist()
     [-1.047198, 1.047198]
     """

@@ -80,7 +80,7 @@ class Arm:
     def numbers(
         self, expression: sp.Expr | sp.Matrix, theta: Iterable[Scalar] | None = None
     ) -> sp.Expr | sp.Matrix:
-        """The expression with metres for the lengths, and with the joint angles where they are given."""
+        """The expression with metres for the lengths, and with the joint angles where theta (n,) is given."""
         angles = {} if theta is None else dict(zip(self.theta, theta, strict=True))
         return expression.subs({**self.lengths, **angles})
 

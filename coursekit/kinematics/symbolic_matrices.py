@@ -9,7 +9,7 @@ Scalar: TypeAlias = sp.Expr | float
 
 
 def rotx(angle: Scalar) -> sp.Matrix:
-    """Turn about x, a (3, 3) Matrix.
+    """Turn by an angle about x, a (3, 3) Matrix.
 
     >>> rotx(sp.pi / 2)
     Matrix([
@@ -22,7 +22,7 @@ def rotx(angle: Scalar) -> sp.Matrix:
 
 
 def roty(angle: Scalar) -> sp.Matrix:
-    """Turn about y, a (3, 3) Matrix.
+    """Turn by an angle about y, a (3, 3) Matrix.
 
     >>> roty(sp.pi / 2)[:, 0].T
     Matrix([[0, 0, -1]])
@@ -32,7 +32,7 @@ def roty(angle: Scalar) -> sp.Matrix:
 
 
 def rotz(angle: Scalar) -> sp.Matrix:
-    """Turn about z, a (3, 3) Matrix.
+    """Turn by an angle about z, a (3, 3) Matrix.
 
     >>> rotz(sp.pi / 2)[:, 0].T
     Matrix([[0, 1, 0]])
@@ -44,6 +44,16 @@ def rotz(angle: Scalar) -> sp.Matrix:
 def xyx(a: Scalar, b: Scalar, c: Scalar) -> sp.Matrix:
     """R_x(a) R_y(b) R_x(c): a wrist whose axes are x, y, x. TPK4170 report 2021, eq. 4.17.
 
+    Parameters
+    ----------
+    a, b, c : expressions, rad
+
+    Returns
+    -------
+    R : (3, 3) Matrix
+
+    Examples
+    --------
     >>> a, b, c = sp.symbols("a b c")
     >>> xyx(a, b, c)[1, 1]
     -sin(a)*sin(c)*cos(b) + cos(a)*cos(c)
@@ -52,7 +62,7 @@ def xyx(a: Scalar, b: Scalar, c: Scalar) -> sp.Matrix:
 
 
 def pose(R: sp.Matrix | None = None, p: Iterable[Scalar] = (0, 0, 0)) -> sp.Matrix:
-    """The (4, 4) Matrix of a rotation and a position.
+    """The (4, 4) Matrix of a rotation R and a position p.
 
     >>> pose(p=(1, 2, 3))[:3, 3].T
     Matrix([[1, 2, 3]])
@@ -116,10 +126,20 @@ def screw_exp(S: Iterable[Scalar], theta: Scalar) -> sp.Matrix:
 
 
 def half_steps(a: Scalar, alpha: Scalar, d: Scalar, theta: Scalar) -> tuple[sp.Matrix, sp.Matrix]:
-    """The two halves of a DH link: about and along z, then about and along x. Two (4, 4) Matrices.
+    """The two halves of a DH link: about and along z, then about and along x.
 
     TPK4170 report 2021, eqs. 2.2 and 2.3.
 
+    Parameters
+    ----------
+    a, alpha, d, theta : expressions, rad and m
+
+    Returns
+    -------
+    two (4, 4) Matrices
+
+    Examples
+    --------
     >>> along_z, along_x = half_steps(*sp.symbols("a alpha d theta"))
     >>> along_z[:3, 3].T, along_x[:3, 3].T
     (Matrix([[0, 0, d]]), Matrix([[a, 0, 0]]))
@@ -128,10 +148,21 @@ def half_steps(a: Scalar, alpha: Scalar, d: Scalar, theta: Scalar) -> tuple[sp.M
 
 
 def dh_matrix(a: Scalar, alpha: Scalar, d: Scalar, theta: Scalar, convention: str = "standard") -> sp.Matrix:
-    """A_i of one DH row. "standard": z then x; "modified": x then z, with a and alpha of the row before.
+    """A_i of one DH row.
 
     Raises ValueError for another convention. Siciliano et al., eq. 2.52; Lynch & Park, appendix C.
 
+    Parameters
+    ----------
+    a, alpha, d, theta : expressions, rad and m
+    convention : "standard": z then x; "modified": x then z, with a and alpha of the row before
+
+    Returns
+    -------
+    A : (4, 4) Matrix
+
+    Examples
+    --------
     >>> a, d, theta = sp.symbols("a d theta")
     >>> dh_matrix(a, sp.pi / 2, d, theta)[0, :]
     Matrix([[cos(theta), 0, sin(theta), a*cos(theta)]])
@@ -143,7 +174,7 @@ def dh_matrix(a: Scalar, alpha: Scalar, d: Scalar, theta: Scalar, convention: st
 
 
 def turn(w: Iterable[Scalar], angle: Scalar) -> sp.Matrix:
-    """Rotation about the unit vector w, (3, 3).
+    """Rotation by an angle about the unit vector w, (3, 3).
 
     >>> turn([0, 0, 1], sp.pi / 2)[:, 0].T
     Matrix([[0, 1, 0]])

@@ -26,7 +26,7 @@ INDEX = "reference"
 _VALUES = (property, functools.cached_property)
 _coloured = Highlight2HTML(pygments_lexer="pycon")
 _SECTION = re.compile(r"^(\w[\w ]*)\n-{3,}$", re.M)
-_ENTRY = re.compile(r"^(\S[^\n]*)\n((?:[ \t]+[^\n]*\n?|\n(?=[ \t]))+)", re.M)
+_ENTRY = re.compile(r"^(\S[^\n]*)\n((?:[ \t]+[^\n]*\n?|\n(?=[ \t]))*)", re.M)
 _TERM = re.compile(r"^(\S.*?) +: (.*)$")
 
 
@@ -123,9 +123,7 @@ def _paragraph(block: str) -> str:
 
 def _terms(body: str) -> str:
     """ "name : type" with its indented text, as a list; '' where a section is something else."""
-    entries = re.findall(
-        r"^(\S[^\n]*)\n((?:[ \t]+[^\n]*\n?|\n(?=[ \t]))+)", inspect.cleandoc(body) + "\n", re.M
-    )
+    entries = _ENTRY.findall(inspect.cleandoc(body) + "\n")
     if not entries or body.strip().startswith(">>>"):
         return ""
     rows = (

@@ -115,7 +115,12 @@ class Slider(Control):
         step: float | None = None,
         limits: tuple[float, float] | None = None,
     ) -> None:
-        """Give the slider another range (as in the constructor) and put it at its start."""
+        """Give the slider another range and put it at its start.
+
+        Parameters
+        ----------
+        start, low, high, unit, step, limits : as in the constructor
+        """
         name = self.name
         if not low < high:
             raise ValueError(f"slider {name!r}: low must be below high, got {low} and {high}")
@@ -252,7 +257,14 @@ class JointSliders(Sliders):
 def joint_sliders(
     robot: Robot, start: Sequence[float] | np.ndarray | None = None, name: str = "theta"
 ) -> JointSliders:
-    """One slider per joint of a robot; the value is theta (n,), in radians and metres."""
+    """One slider per joint of a robot; the value is theta (n,), in radians and metres.
+
+    Parameters
+    ----------
+    robot : Robot
+    start : (n,), rad or m; None: the robot's home
+    name : what `panel.set` and `panel.values` call them
+    """
     return JointSliders(robot, start, name)
 
 

@@ -29,6 +29,14 @@ LINE = 14  # pixels from one label to the next below it
 def png(scene: Scene, width: int = 720, height: int = 440, view: str = "home") -> bytes:
     """The scene from one of its views as PNG bytes; the same scene gives the same bytes.
 
+    Parameters
+    ----------
+    scene : Scene
+    width, height : pixels
+    view : "home", "top", "side" or "front"
+
+    Examples
+    --------
     >>> png(Scene(), 160, 120)[1:4]
     b'PNG'
     """

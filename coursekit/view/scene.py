@@ -105,6 +105,10 @@ class Scene:
     moving     paths that move, those of robots first;  pose() their transforms (k, 4, 4) now
     shown      dict path -> bool, of what was shown or hidden by its handle
 
+    What its methods draw has a path (its name; drawn again under the same path it is replaced) and may have a
+    color (a name of `paint` or 0xRRGGBB), a label, and a size, length or radius in metres (None: as the stage
+    asks) and an opacity from 0 to 1. Points, vectors and poses are given in the space frame, metres.
+
     >>> from coursekit import robots
     >>> scene = Scene()
     >>> arm = scene.robot(robots.planar_2r())

@@ -150,7 +150,14 @@ class Viewer(anywidget.AnyWidget):
         }
 
     def held_by(self, path: str, letter: str, sliders: Sequence[Slider]) -> None:
-        """Let a person drag the frame at `path` in the picture: its sliders are x, y, z, yaw, pitch, roll."""
+        """Let a person drag a frame in the picture.
+
+        Parameters
+        ----------
+        path : the frame's, in the scene
+        letter : what its handle is called
+        sliders : six, for x, y, z, yaw, pitch, roll
+        """
         self.handle = {
             "path": path,
             "letter": letter,

@@ -50,6 +50,27 @@ def test_the_mathematics_is_explained_with_examples(name):
     assert not without, "no docstring, or no example that can be pasted"
 
 
+def public_functions():
+    """(name, function, what it is asked for) of all that `coursekit` offers but pictures."""
+    for name in coursekit.__all__:
+        thing = getattr(coursekit, name)
+        for owner, code in offered(thing) if inspect.ismodule(thing) else [(name, thing)]:
+            for said, one in [(owner, code), *((f"{owner}.{m}", getattr(code, m)) for m, _ in methods(code))]:
+                if callable(one) and not inspect.isclass(one) and name != "view":
+                    asked = [p for p in inspect.signature(one).parameters if p not in ("self", "robot")]
+                    yield f"{name}.{said}", one, asked
+
+
+@pytest.mark.parametrize("_, function, asked", [*public_functions()], ids=lambda one: str(one)[:40])
+def test_the_parameters_are_named(_, function, asked):
+    """Three or more in a list as numpydoc has it; fewer in the sentence itself, with shape and unit."""
+    text = inspect.getdoc(function)
+    if len(asked) > 2:
+        _, _, listed = text.partition("Parameters\n----------\n")
+        text = " ".join(re.findall(r"^(\S.*?)(?: : |$)", listed.partition("\n\n")[0], flags=re.M))
+    assert set(asked) <= set(re.findall(r"\w+", text))
+
+
 @pytest.mark.parametrize("name", ["coursekit", *MODULES])
 def test_examples_print_what_they_say(name, capsys):
     result = doctest.testmod(

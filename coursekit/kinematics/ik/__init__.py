@@ -7,20 +7,11 @@ by_the_book  trail                                 the loop around such a step, 
 search                                             distinct solutions of any arm, from random starts
 """
 
+from .book import by_the_book, dls_step, newton_step, trail, transpose_step
 from .closed_form import Solutions, analytic, first_joints, why_outside, wrist_centre
 from .engine import Step
 from .geometry import NoClosedForm
-from .iteration import (
-    Numeric,
-    by_the_book,
-    damped_least_squares,
-    dls_step,
-    newton,
-    newton_step,
-    trail,
-    transpose,
-    transpose_step,
-)
+from .iteration import Numeric, damped_least_squares, newton, transpose
 from .search import Found, search
 
 __all__ = [

@@ -1,6 +1,6 @@
 """The engine of the numeric inverse kinematics: from a configuration to the Jacobian and the error, and on.
 
-It goes the same way, step by step, as the plain loop `iteration.by_the_book`, which says what is meant.
+It goes the same way, step by step, as the plain loop `book.by_the_book`, which says what is meant.
 The methods are written with J_b and e = log(T_sb^-1 T_sd). Here both are taken along the axes of the space
 frame, about the tool point: diag(R, R) J_b and diag(R, R) e. No step notices: J^+ e, J^T e and
 J^T (J J^T + k^2 I)^-1 e stay as they are when J and e are turned together.

@@ -1,21 +1,20 @@
 """Inverse kinematics by iteration: Newton-Raphson, the Jacobian transpose, damped least squares.
 
-All three repeat theta <- theta + step(J_b, e), with the body Jacobian J_b and the body error
-e = log(T_sb(theta)^-1 T_sd) = (omega; v), until the angle and the distance that are left are below tol. Each
-finds one solution, and which one depends on the guess. Limits are not enforced; `within_limits` tells whether
-the answer keeps them.
+The steps and the loop are those of `book`, here for many targets at once, until the angle and the distance
+that are left are below tol. Each finds one solution, and which one depends on the guess. Limits are not
+enforced; `within_limits` tells whether the answer keeps them.
 Sources: Lynch & Park, Modern Robotics (2017), section 6.2; Panda programming assignment.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import checks, lie
+from .. import checks
 from ..robot import Robot
+from .book import dls_step, newton_step, transpose_step
 from .engine import Step, closest, iterate
 
 CONVERGED = "converged"
@@ -25,8 +24,6 @@ CLOSEST = "not reached: this is the closest pose found"
 DIVERGED = "diverged"
 NOT_A_NUMBER = "not a number"
 
-IDENTITY = np.eye(6)
-SINGULAR = 1e-12  # singular values below this share of the largest are rounding, and count as 0
 SHRINK = 1e-2  # damping without a number: k = SHRINK |e|, so that it all but vanishes at the solution
 LEAST = 1e-7  # but never less than this: enough for J J^T + k^2 I to have an inverse at a singular pose
 LONGEST = 0.8  # rad; no joint moves further in one step of that method
@@ -59,107 +56,6 @@ class Numeric:
         return self.robot.within_limits(self.theta)
 
 
-def newton_step(J: ArrayLike, e: ArrayLike) -> np.ndarray:
-    """J^+ e: the shortest step that would remove the error e of a linear arm. -> (..., n)
-
-    J (..., m, n), e (..., m).
-    J^+ is the pseudo-inverse: J^-1 for a square regular J. Source: Lynch & Park, section 6.2.2.
-
-    >>> newton_step([[2.0, 0], [0, 4]], [2.0, 4]).round(6).tolist()
-    [1.0, 1.0]
-    """
-    J, e = _step_arguments(J, e)
-    return (np.linalg.pinv(J, rcond=SINGULAR) @ e[..., None])[..., 0]
-
-
-def transpose_step(J: ArrayLike, e: ArrayLike, gain: float = 1.0) -> np.ndarray:
-    """gain J^T e: steepest descent of |e|^2 / 2. J (..., m, n), e (..., m) -> (..., n).
-
-    Near a solution it converges for 0 < gain < 2 / sigma_max(J)^2, which depends on the unit of length: what
-    converges in metres may diverge in millimetres.
-
-    >>> transpose_step([[2.0, 0], [0, 4]], [2.0, 4], gain=0.1).round(6).tolist()
-    [0.4, 1.6]
-    """
-    J, e = _step_arguments(J, e)
-    return gain * (np.swapaxes(J, -1, -2) @ e[..., None])[..., 0]
-
-
-def dls_step(J: ArrayLike, e: ArrayLike, damping: ArrayLike) -> np.ndarray:
-    """J^T (J J^T + k^2 I)^-1 e with k = damping: a Newton step that stays short near singular poses.
-
-    J (..., m, n), e (..., m), damping (...) -> (..., n). It minimises |J step - e|^2 + k^2 |step|^2.
-
-    >>> dls_step([[2.0, 0], [0, 4]], [2.0, 4], damping=0.0).round(6).tolist()
-    [1.0, 1.0]
-    """
-    J, e = _step_arguments(J, e)
-    Jt = J.swapaxes(-1, -2)
-    k = np.asarray(damping, dtype=float)[..., None, None]
-    identity = IDENTITY[: e.shape[-1], : e.shape[-1]]
-    return (Jt @ np.linalg.solve(J @ Jt + k * k * identity, e[..., None]))[..., 0]
-
-
-def _step_arguments(J: ArrayLike, e: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-    J, e = np.asarray(J, dtype=float), np.asarray(e, dtype=float)
-    if J.ndim < 2 or J.shape[-2:-1] != e.shape[-1:]:
-        raise ValueError(f"J must be (..., m, n) and e (..., m), got {J.shape} and {e.shape}")
-    return J, e
-
-
-def by_the_book(
-    robot: Robot,
-    T: np.ndarray,
-    theta: np.ndarray,
-    step: Callable[[np.ndarray, np.ndarray], np.ndarray] = newton_step,
-    max_iterations: int = 50,
-    tol: float = 1e-10,
-) -> tuple[np.ndarray, int]:
-    """The loop itself, for one target T (4, 4), as the book writes it. -> (theta (n,), number of steps).
-
-    The methods below do the same for many targets at once, in a fraction of the time, and say what came of
-    it. Source: Lynch & Park, section 6.2.2.
-
-    >>> from coursekit import ik, robots
-    >>> kr6 = robots.kuka_kr6()
-    >>> theta, steps = ik.by_the_book(kr6, kr6.fk([2, -1, -1, 2.5, 0.6, 0]), np.array([2, -1, -1, 2, 0.5, 0]))
-    >>> (theta.round(6) + 0.0).tolist(), steps
-    ([2.0, -1.0, -1.0, 2.5, 0.6, 0.0], 4)
-    """
-    for k in range(max_iterations):
-        T_sb = robot.fk(theta)
-        e = lie.log6(lie.inverse(T_sb) @ T)  # the body twist that would carry the tool to T in unit time
-        angle, distance = np.linalg.norm(e[:3]), np.linalg.norm(T[:3, 3] - T_sb[:3, 3])
-        if max(angle, distance) < tol:
-            return theta, k
-        theta = theta + step(robot.jacobian_body(theta), e)
-    return theta, max_iterations
-
-
-def trail(
-    robot: Robot,
-    T: np.ndarray,
-    theta: np.ndarray,
-    step: Callable[[np.ndarray, np.ndarray], np.ndarray] = newton_step,
-    steps: int = 10,
-) -> np.ndarray:
-    """Every configuration of that loop, whether it arrives or not: the guess first. -> (steps + 1, n)
-
-    T (4, 4), theta (n,), step(J_b, e) -> (n,). Source: Lynch & Park, section 6.2.2.
-
-    >>> from coursekit import ik, robots
-    >>> arm = robots.planar_2r()
-    >>> rows = ik.trail(arm, arm.fk([0.4, 0.6]), np.array([0.3, 0.8]), steps=4)
-    >>> rows.shape, rows[-1].round(9).tolist()
-    ((5, 2), [0.4, 0.6])
-    """
-    rows = [np.array(theta, dtype=float)]
-    for _ in range(steps):
-        e = lie.log6(lie.inverse(robot.fk(rows[-1])) @ T)
-        rows.append(rows[-1] + step(robot.jacobian_body(rows[-1]), e))
-    return np.array(rows)
-
-
 def newton(
     robot: Robot,
     T: ArrayLike,
@@ -168,7 +64,7 @@ def newton(
     tol: float = 1e-10,
     rows: str = "all",
 ) -> Numeric:
-    """Newton-Raphson: theta <- theta + J_b^+ e. T (..., 4, 4), theta0 (..., n) -> Numeric, (...) broadcast.
+    """Newton-Raphson: theta <- theta + J_b^+ e.
 
     Near a solution each step doubles the number of right digits; far from one, or near a singular pose, steps
     may be of any size. It does not find "the closest solution" of a target out of reach by itself: it
@@ -176,13 +72,24 @@ def newton(
     short of the target, its end is the answer, with converged = False and the reason; if it gets there, the
     best pose of the iteration itself is the answer. Angles and distances count alike (1 rad as 1 m).
 
-    max_iterations  number of steps
-    tol             rad and m, for the angle and the distance that are left
-    rows            "all", or "linear": position alone, the rotation is free
-
     Raises ValueError for T not in SE(3), wrong shapes, and settings that make no sense. NaN in, NaN out.
     Source: Lynch & Park, section 6.2.2.
 
+    Parameters
+    ----------
+    robot : Robot
+    T : (..., 4, 4), targets
+    theta0 : (..., n), rad or m, guesses; (...) as for T, or one for all
+    max_iterations : number of steps
+    tol : rad and m, for the angle and the distance that are left
+    rows : "all", or "linear": position alone, the rotation is free
+
+    Returns
+    -------
+    Numeric
+
+    Examples
+    --------
     >>> from coursekit import ik, robots
     >>> kr6 = robots.kuka_kr6()
     >>> found = ik.newton(kr6, kr6.fk([2, -1, -1, 2.5, 0.6, 0]), [2, -1, -1, 2, 0.5, 0])
@@ -203,12 +110,23 @@ def transpose(
     tol: float = 1e-6,
     rows: str = "all",
 ) -> Numeric:
-    """The Jacobian transpose: theta <- theta + gain J_b^T e. Arguments and result as `newton`.
+    """The Jacobian transpose: theta <- theta + gain J_b^T e.
 
     Steepest descent: no inverse, no trouble at singular poses, and slow, since each step takes off a fixed
     share of the error. It converges only for 0 < gain < 2 / sigma_max(J_b)^2; see transpose_step. With
     rows="linear" and gain=1 it is the method of the Panda programming assignment (the rotation is left over).
 
+    Parameters
+    ----------
+    robot, T, theta0, max_iterations, tol, rows : as in `newton`
+    gain : length of the step
+
+    Returns
+    -------
+    Numeric
+
+    Examples
+    --------
     >>> from coursekit import ik, robots
     >>> arm = robots.planar_2r()
     >>> found = ik.transpose(arm, arm.fk([0.3, 0.8]), [0.5, 0.5], rows="linear")
@@ -231,16 +149,26 @@ def damped_least_squares(
     restarts: int = 0,
     rng: np.random.Generator | None = None,
 ) -> Numeric:
-    """Damped least squares: theta <- theta + J^T (J J^T + k^2 I)^-1 e. Arguments and result as `newton`.
+    """Damped least squares: theta <- theta + J^T (J J^T + k^2 I)^-1 e.
 
-    damping         a number: k, which keeps steps short near singular poses and slows convergence everywhere.
-                    None: k shrinks with the error (k = 0.01 |e|) and no joint moves more than 0.8 rad a step:
-                    safe far away and as fast as Newton near the solution
-    max_iterations  number of steps of each try; None: 50 (20 with restarts; 1000 if damping is a number)
-    restarts        how often a target that was not reached is tried again, from a random configuration
-                    inside the joint limits
-    rng             numpy Generator for the restarts; None: np.random.default_rng(0)
+    Parameters
+    ----------
+    robot, T, theta0, tol, rows : as in `newton`
+    damping : k, which keeps steps short near singular poses and slows convergence everywhere
+        None: k shrinks with the error (k = 0.01 |e|) and no joint moves more than 0.8 rad a step: safe far
+        away and as fast as Newton near the solution
+    max_iterations : number of steps of each try
+        None: 50 (20 with restarts; 1000 if damping is a number)
+    restarts : how often a target that was not reached is tried again
+        from a random configuration inside the joint limits
+    rng : numpy Generator for the restarts; None: np.random.default_rng(0)
 
+    Returns
+    -------
+    Numeric
+
+    Examples
+    --------
     >>> from coursekit import ik, robots
     >>> kr6 = robots.kuka_kr6()
     >>> bool(ik.damped_least_squares(kr6, kr6.fk([2, -1, -1, 2.5, 0.6, 0]), kr6.home).converged)

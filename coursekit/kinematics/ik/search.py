@@ -64,17 +64,27 @@ def search(
     starts: ArrayLike | None = None,
     rng: np.random.Generator | None = None,
 ) -> Found:
-    """Distinct solutions for one pose T (4, 4), found downhill from random starts. -> Found.
-
-    tries   number of starts: hinges anywhere on the circle, slides within their limits
-    tol     rad and m, for the angle and the distance that are left
-    rows    "all", or "linear": position alone
-    starts  (m, n) configurations to begin from beside the random ones: such as solutions of a pose nearby
-    rng     numpy Generator; None: np.random.default_rng(0)
+    """Distinct solutions for one pose, found downhill from random starts.
 
     Joint limits do not restrict the search; `within_limits` tells which solutions keep them. Raises
     ValueError for T not in SE(3) and settings that make no sense. None is found where T holds NaN.
 
+    Parameters
+    ----------
+    robot : Robot
+    T : (4, 4), the pose
+    tries : number of starts: hinges anywhere on the circle, slides within their limits
+    tol : rad and m, for the angle and the distance that are left
+    rows : "all", or "linear": position alone
+    starts : (m, n), configurations to begin from beside the random ones: such as solutions of a pose nearby
+    rng : numpy Generator; None: np.random.default_rng(0)
+
+    Returns
+    -------
+    Found
+
+    Examples
+    --------
     >>> from coursekit import ik, robots
     >>> kr6 = robots.kuka_kr6()
     >>> found = ik.search(kr6, kr6.fk([2, -1, -1, 2.5, 0.6, 0]))
