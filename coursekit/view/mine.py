@@ -21,6 +21,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..kinematics.robot import Robot
 from .scene import Scene
 from .sketch import ROOT, Trouble
 
@@ -45,6 +46,7 @@ _AXES = "the axes of your screws on the arm, and what turns about them"
 _GHOSTS = "your solutions as translucent arms, and how far each misses the target"
 _STAND = "the arm at your angle, how far its wrist is from where it should be, and a button that drives there"
 _COLUMN = "the velocity of the tool by your first column that is off, beside the right one"
+_WAY = "the way of the tool by your steps, and a button that plays it"
 _ATTITUDE = "the attitude that you get back from your numbers, beside that of the path"
 
 # opener of the explorer -> name of the exercise -> what is shown
@@ -78,14 +80,18 @@ WANTED: dict[str, dict[str, Wanted]] = {
         "jacobian_geometric": Wanted("axes, origins, tool", (6, None), _COLUMN),
         "jacobian_by_differences": Wanted("fk, theta, step", (6, None), _COLUMN),
         "ellipsoid": Wanted("J", ((3,), (3, 3)), "your ellipsoids over the right ones"),
-        "dls_step": Wanted(
-            "J, e, k", (None,), "the way of the tool by your steps, and a button that plays it"
-        ),
+        "jacobian_column": Wanted("kind, w, q, T", (6,), _COLUMN),
+        "transform_rate": Wanted("T_left, S, theta, T_right", ((4, 4), (6,)), _COLUMN),
+        "torques": Wanted("J_b, T, moment, force", (None,), "a load at the tool, and your joint torques"),
+        "dls_step": Wanted("J, e, k", (None,), _WAY),
+        "dls_loop": Wanted("robot, T_sd, theta, k, steps", (None, None), _WAY),
     },
     "explore_path": {
         "tool_frames": Wanted("points, centre", (None, 4, 4), "your frames along the path"),
         "quaternion": Wanted("R", (4,), _ATTITUDE),
         "zyx": Wanted("R", (3,), _ATTITUDE),
+        "angle_axis": Wanted("R", (3,), _ATTITUDE),
+        "slerp": Wanted("R_0, R_1, t", (3, 3), "your attitude between those of the path's two ends"),
         "inside": Wanted("theta, lower, upper", (None,), "where your function judges the path differently"),
         "largest_speed": Wanted(
             "q, points, v_max", (), "the motion at your speed, and the joint that breaks its bound"
@@ -260,7 +266,7 @@ def _key(argument: Any) -> Any:
 def _equal(before: Any, after: Any) -> bool:
     if isinstance(before, np.ndarray):
         return np.array_equal(before, after, equal_nan=before.dtype.kind == "f")
-    return callable(before) or before == after
+    return callable(before) or isinstance(before, Robot) or before == after
 
 
 def _read(value: Any, shape: tuple, finite: bool) -> Any:

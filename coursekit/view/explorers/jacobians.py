@@ -57,7 +57,8 @@ def explore_jacobians(
         Where the arm stands at first, radians and metres.
     mine : function, list or dict of functions, optional
         What you wrote, beside what is right: jacobian_space, jacobian_geometric, jacobian_by_differences,
-        ellipsoid, dls_step (see `coursekit.view.mine`). ValueError for any other name.
+        jacobian_column, transform_rate, torques, ellipsoid, dls_step, dls_loop (see `coursekit.view.mine`).
+        ValueError for any other name.
     """
     robot = robots.franka_panda() if robot is None else robot
     named = {name: checks.joint_angles(pose, robot.n, robot.name) for name, pose in (poses or {}).items()}

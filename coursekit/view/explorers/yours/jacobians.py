@@ -1,20 +1,24 @@
-"""Notebook 05: a column of the student, their ellipsoids, and their damped steps."""
+"""Notebook 05: a column of the student, their ellipsoids, their torques, and their damped steps."""
 
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from coursekit.kinematics import ik, jacobians
+from coursekit.kinematics import ik, jacobians, lie
+from coursekit.view import text
 from coursekit.view.controls import Action, Control
 from coursekit.view.explorers import Explorer
-from coursekit.view.sketch import ZERO, Trouble, size
+from coursekit.view.sketch import ZERO, Trouble, apart, size
 
-from .steps import ahead, iterate, run
+from .steps import STEPS, ahead, iterate, run
+
+LOAD = 100.0  # N
+TWIST = 10.0  # N m, about y
 
 
 class Jacobians(Explorer):
-    """Notebook 05: a column of the student, their ellipsoids, and their damped steps."""
+    """Notebook 05: a column of the student, their ellipsoids, their torques, and their damped steps."""
 
     run: Any
     start: Any
@@ -26,15 +30,18 @@ class Jacobians(Explorer):
     def more(self) -> Sequence[Control]:
         """See `Explorer`."""
         self.run = None
-        return [Action("mine", "play yours", self._play)] if "dls_step" in self.mine.functions else []
+        runs = {"dls_step", "dls_loop"} & set(self.mine.functions)
+        return [Action("mine", "play yours", self._play)] if runs else []
 
     def yours(self, name: str, values: dict[str, Any]) -> str:
         """See `Explorer`."""
         theta, sketch = values["theta"], self.sketch(name)
         if name == "ellipsoid":
             return self._ellipsoids(sketch, values)
-        if name == "dls_step":
-            return self._damped(sketch, values["damping"])
+        if name in ("dls_step", "dls_loop"):
+            return self._damped(sketch, name, values["damping"])
+        if name == "torques":
+            return self._torques(sketch, theta)
         return self._columns(sketch, name, theta)
 
     def _columns(self, sketch, name, theta):
@@ -48,6 +55,9 @@ class Jacobians(Explorer):
                 raise Trouble(f"it is for joints that turn, and one of {robot.name} slides")
             axes = in_space[:3].T.copy()
             mine = self.mine.ask(name, axes, np.cross(axes, in_space[3:].T), tool)
+        elif name in ("jacobian_column", "transform_rate"):
+            by_joint = self._by_column if name == "jacobian_column" else self._by_rate
+            mine = np.array([by_joint(theta, i) for i in range(robot.n)]).T
         else:
             bound = 1e-6
             mine = self.mine.ask(name, robot.fk, theta, 1e-5)
@@ -73,6 +83,37 @@ class Jacobians(Explorer):
             f"velocity by {size(1000 * np.linalg.norm(v - right_v))} mm/s at 1 rad/s"
         )
 
+    def _by_column(self, theta, i):
+        """Column i along the base, by the student's column of J_b."""
+        kind, T = self.robot.joint_types[i], self.robot.fk(theta)
+        w, v = np.split(self.robot.jacobian_space(theta)[:, i], 2)
+        axis = (w, np.cross(w, v)) if kind == "revolute" else (v, np.zeros(3))
+        column = self.mine.ask("jacobian_column", kind, *axis, T)
+        return np.concatenate([T[:3, :3] @ column[:3], T[:3, :3] @ column[3:]])
+
+    def _by_rate(self, theta, i):
+        """Column i along the base, by the student's rate of T = T_left e^[S]theta T_right."""
+        before = np.array([np.eye(4), *self.robot.displacements(theta)])
+        right = lie.inverse(before[i + 1]) @ self.robot.fk(theta)
+        return self.mine.ask("transform_rate", before[i], self.robot.S[:, i].copy(), theta[i], right)[1]
+
+    def _torques(self, sketch, theta):
+        """What the joints must give for a force that the tool gives downwards, and a moment about y."""
+        T, moment, force = self.robot.fk(theta), np.array([0, TWIST, 0]), np.array([0, 0, -LOAD])
+        right = self.robot.jacobian_geometric(theta).T @ np.concatenate([moment, force])
+        load = f"for {LOAD:.0f} N downwards and {TWIST:.0f} N m about y"
+        mine = self.mine.ask("torques", self.robot.jacobian_body(theta), T, moment, force)
+        if mine.shape != right.shape:
+            raise Trouble(f"it returns shape {mine.shape}, expected {right.shape}")
+        sketch.arrow("force", T[:3, 3], 0.3 * self.scene.size * force / LOAD, f"{LOAD:.0f} N")
+        off, k = np.abs(mine - right), int(np.abs(right).argmax())
+        if off.max() <= ZERO * LOAD:
+            most = f"joint {k + 1} gives most, {text.number(right[k], 1)}"
+            return f"{load} every torque agrees, below 1e-9; {most} N m"
+        i = int(np.flatnonzero(off > ZERO * LOAD)[0])
+        told = f"{text.number(mine[i], 1)} N m, the right one is {text.number(right[i], 1)}"
+        return f"{load} joint {i + 1} gives {told}"
+
     def _ellipsoids(self, sketch, values):
         theta, words = values["theta"], []
         J, tool = self.robot.jacobian_geometric(theta), self.robot.fk(theta)[:3, 3]
@@ -97,7 +138,7 @@ class Jacobians(Explorer):
                 words.append(f"{part}: below 1e-9")
         return "; ".join(words)
 
-    def _damped(self, sketch, damping):
+    def _damped(self, sketch, name, damping):
         robot, rows = self.robot, slice(0 if self.robot.n > 5 else 3, 6)
         self.run = None
         first = ik.dls_step(
@@ -106,12 +147,28 @@ class Jacobians(Explorer):
 
         def step(theta):
             J, e = robot.jacobian_body(theta)[rows], ahead(robot, theta, self.target)[rows]
-            return self.mine.ask("dls_step", J, e, damping)
+            return self.mine.ask(name, J, e, damping)
 
-        self.run, error = iterate(robot, self.start, self.target, step, 1e-8, rows)
+        if name == "dls_loop":
+            self.run, error = self._loop(damping)
+        else:
+            self.run, error = iterate(robot, self.start, self.target, step, 1e-8, rows)
         sketch.way(robot.fk(self.run)[:, :3, 3])
         off = np.abs(self.run[1] - self.run[0] - first).max() if len(self.run) > 1 else 0.0
         return run(self.run, error, off)
+
+    def _loop(self, damping):
+        """The student's whole run, as far as it stays finite, and what is left at its end."""
+        thetas = self.mine.ask("dls_loop", self.robot, self.target, self.start, damping, STEPS)
+        if thetas.shape != (STEPS + 1, self.robot.n):
+            raise Trouble(f"it returns shape {thetas.shape}, expected {(STEPS + 1, self.robot.n)}")
+        if np.abs(thetas[0] - self.start).max() > ZERO:
+            raise Trouble("its first row is not where the arm stands")
+        far = np.flatnonzero(np.abs(thetas).max(axis=1) > 1e4)
+        if far.size:
+            return thetas[: far[0]], None
+        distance, angle = apart(self.robot.fk(thetas[-1]), self.target)
+        return thetas, (float(angle), float(distance))
 
     def _play(self):
         if self.run is not None:

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from coursekit.kinematics import path, rotations
+from coursekit.kinematics import lie, path, rotations
 from coursekit.view import text
 from coursekit.view.controls import Action, Control
 from coursekit.view.explorers import Explorer
@@ -39,9 +39,8 @@ class Path(Explorer):
     def yours(self, name: str, values: dict[str, Any]) -> str:
         """See `Explorer`."""
         sketch = self.sketch(name)
-        return getattr(self, f"_{name}" if name in ("tool_frames", "inside", "largest_speed") else "_turn")(
-            sketch, name
-        )
+        turn = name in ("quaternion", "zyx", "angle_axis")
+        return getattr(self, "_turn" if turn else f"_{name}")(sketch, name)
 
     def _tool_frames(self, sketch, name):
         right = path.frames(self.points)
@@ -68,8 +67,8 @@ class Path(Explorer):
         for T in made:
             numbers = self.mine.ask(name, T[:3, :3].copy())
             lengths.append(np.linalg.norm(numbers))
-            if name == "zyx":
-                T[:3, :3] = rotations.from_zyx(numbers)
+            if name != "quaternion":
+                T[:3, :3] = rotations.from_zyx(numbers) if name == "zyx" else lie.exp3(numbers)
             elif lengths[-1] < 1e-9:
                 raise Trouble("its quaternion has length 0")
             else:
@@ -85,6 +84,22 @@ class Path(Explorer):
         at = here if here in off else off[0]
         told = f"at point {some[at] + 1} by {gap(0, angle[at])}"
         return f"{off.size} of {len(some)} attitudes made again from your numbers are off, {told}{note}"
+
+    def _slerp(self, sketch, name):
+        """Attitudes between those of the two ends; the one of this share of the way stands at this point."""
+        frames = path.frames(self.points)
+        first, last, here = frames[0, :3, :3], frames[-1, :3, :3], frames[self.place].copy()
+        shares = np.append(np.linspace(0, 1, FRAMES), self.place / (len(frames) - 1))
+        mine = np.array([self.mine.ask(name, first.copy(), last.copy(), float(t)) for t in shares])
+        angle = np.linalg.norm(lie.log3(np.swapaxes(mine, -1, -2) @ lie.slerp(first, last, shares)), axis=-1)
+        if np.abs(np.swapaxes(mine, -1, -2) @ mine - np.eye(3)).max() > 1e-6:
+            raise Trouble("its columns are not three of length 1 at right angles")
+        here[:3, :3] = mine[-1]
+        sketch.frame("between", here, sketch.label + ("" if angle[-1] > BACK else " \N{CHECK MARK}"))
+        worst = int(angle.argmax())
+        if angle[worst] <= BACK:
+            return "every attitude between the two ends agrees, below 1e-7"
+        return f"off by up to {gap(0, angle[worst])}, at t = {text.number(shares[worst], 2)}"
 
     def _inside(self, sketch, name):
         lower, upper = self.robot.q_min, self.robot.q_max
