@@ -1,6 +1,7 @@
 """Which cell of the notebook shows which panel: running a cell again closes what it showed before."""
 
 import contextlib
+from collections.abc import Callable
 from typing import Any
 
 SHOWN: dict[Any, tuple] = {}  # panel -> (name, cell, run of the cell)
@@ -14,6 +15,21 @@ def running() -> tuple[str | None, str | None]:
         parent = get_ipython().kernel.get_parent()
         return parent["metadata"]["cellId"], parent["header"]["msg_id"]
     return None, None
+
+
+def afterwards(act: Callable[[], None]) -> None:
+    """Do this once the cell that runs now has shown what it gives; at once where no cell runs."""
+    from IPython import get_ipython
+
+    shell = get_ipython()
+    if shell is None or running()[0] is None:
+        return act()
+
+    def once(_result):
+        shell.events.unregister("post_run_cell", once)
+        act()
+
+    shell.events.register("post_run_cell", once)
 
 
 def take_place(panel: Any) -> None:

@@ -130,7 +130,10 @@ class Panel(ipywidgets.VBox):
         top = layout.beside(column, self.viewer)
         self.children = [top, self.line, *layout.under(self.below)]
         for output in self.below:
-            output.refresh(values) if hasattr(output, "refresh") else None
+            if hasattr(output, "has_time"):
+                self._stale.append(output)  # a plot takes longer than all the rest
+            elif hasattr(output, "refresh"):
+                output.refresh(values)
         for control in self._widgets():
             self._listen(control)
         touchable = [widget for widget in self._widgets() if widget.has_trait("touched")]
@@ -142,6 +145,7 @@ class Panel(ipywidgets.VBox):
                 self.viewer.held_by(control.path, control.letter, control.sliders)
         self.viewer.observe(self._dragged, "dragged")
         cells.take_place(self)
+        cells.afterwards(self._catch_up)
 
     # -- values
 
@@ -247,7 +251,7 @@ class Panel(ipywidgets.VBox):
         return f"{self.title}: {'closed' if self.scene is None else self.scene.text()}"
 
     def _repr_mimebundle_(self, **_options):
-        return mimebundle(self, repr(self), self.scene, self.viewer.height)
+        return mimebundle(self, self.viewer)
 
     def close(self) -> None:
         """Close every widget of the panel: nothing of it stays in the kernel or the page."""
@@ -360,8 +364,13 @@ class Panel(ipywidgets.VBox):
             self.viewer.end()
 
     def _drag_ended(self, change):
+        if not change.new:
+            self._catch_up()
+
+    def _catch_up(self):
+        """Draw what had to wait."""
         with self._lock:
-            if not change.new and (self._stale or self.late):
+            if self._stale or self.late:
                 self.refresh()
 
     def _message(self, widget, content, _buffers):

@@ -29,7 +29,8 @@ from coursekit.view.picture import png
 from coursekit.view.scene import Scene
 
 STATIC = Path(__file__).parent / "static"
-_SCRIPTS = ("html", "bundle", "stage", "actors", "player", "kinematics", "follow", "handles", "viewer")
+_SCRIPTS = ["html", "bundle", "light", "stage", "actors", "player"]
+_SCRIPTS += ["kinematics", "follow", "handles", "viewer"]
 
 
 def script() -> str:
@@ -230,7 +231,7 @@ class Viewer(anywidget.AnyWidget):
         return f"Viewer({'closed' if self.scene is None else self.scene.text()})"
 
     def _repr_mimebundle_(self, **_options):
-        return mimebundle(self, repr(self), self.scene, self.height)
+        return mimebundle(self, self)
 
     # -- what goes to the page
 
@@ -276,11 +277,16 @@ class Viewer(anywidget.AnyWidget):
                     self.send({"type": "png"}, buffers=[png(self.scene, *size)])
 
 
-def mimebundle(widget: ipywidgets.Widget, text: str, scene: Scene, height: int) -> tuple[dict, dict]:
-    """What a notebook stores for a widget: itself, a picture for readers without a kernel, and one line."""
+def mimebundle(widget: ipywidgets.Widget, viewer: Viewer) -> tuple[dict, dict]:
+    """What a notebook stores for a widget: itself, a picture for readers without a kernel, and one line.
+
+    The page gets the picture before it opens a view: it is what that shows first.
+    """
+    text, picture = repr(widget), png(viewer.scene, 640, viewer.height)
+    viewer.send({"type": "png"}, buffers=[picture])
     data = {
         "text/plain": text,
-        "image/png": png(scene, 640, height),
+        "image/png": picture,
         "application/vnd.jupyter.widget-view+json": {
             "version_major": 2,
             "version_minor": 0,

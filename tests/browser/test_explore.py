@@ -243,18 +243,3 @@ def test_a_lost_webgl_context_comes_back(explorer):
     explorer.settle()
     assert explorer.pixels() != before
     assert_tool_is_where_the_sliders_say(explorer)
-
-
-def test_the_first_view_shows_the_kernels_picture_until_its_own_is_there(notebook, lab):
-    """Shaders take seconds without a GPU: meanwhile there is a picture, and it goes with the first frame."""
-    notebook.page.add_init_script(
-        """window.covers = 0;
-           new MutationObserver(() => { if (document.querySelector(".ck-cover")) window.covers += 1; })
-             .observe(document, { childList: true, subtree: true });"""
-    )
-    notebook.open(lab.write("first.ipynb", "from coursekit import view\nview.explore()"))
-    notebook.run_all()
-    notebook.wait_view()
-    assert notebook.page.evaluate("window.covers") > 0
-    assert notebook.page.locator(".ck-first").count() == 0
-    assert notebook.errors == []

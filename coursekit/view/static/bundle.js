@@ -13,6 +13,8 @@ function page() {
   return globalThis[key];
 }
 
+const pause = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
+
 // Bytes of a message, whatever the transport made of them (a DataView may start in the middle of its buffer).
 const bytesOf = (data) => (data instanceof Uint8Array ? data : new Uint8Array(data.buffer, data.byteOffset, data.byteLength));
 

@@ -5,7 +5,8 @@ function sharedRenderer(MeshCat) {
   const shared = page();
   if (shared.renderer) return shared.renderer;
   const THREE = MeshCat.THREE;
-  const renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true });
+  const renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true }); // until it is copied
+  renderer.debug.checkShaderErrors = false; // to ask each program at once is to wait for it
   renderer.setPixelRatio(1);
   renderer.setClearColor(0, 0);
   renderer.outputEncoding = THREE.sRGBEncoding;
@@ -15,8 +16,7 @@ function sharedRenderer(MeshCat) {
   shared.contextLost = false;
   const redrawAll = () => {
     shared.contextLost = false;
-    shared.studioLight = null; // the environment lived in the lost context
-    for (const stage of shared.views) stage.relight();
+    for (const stage of shared.views) stage.light();
   };
   renderer.domElement.addEventListener("webglcontextlost", (event) => {
     event.preventDefault(); // without this the browser never gives the context back
@@ -35,35 +35,6 @@ function sharedRenderer(MeshCat) {
   renderer.domElement.addEventListener("webglcontextrestored", redrawAll);
   shared.renderer = renderer;
   return renderer;
-}
-
-// A small bright room, prefiltered once per page: the soft reflections that make painted metal look like it.
-function studioLight(MeshCat) {
-  const shared = page();
-  if (shared.studioLight) return shared.studioLight;
-  const THREE = MeshCat.THREE;
-  const room = new THREE.Scene();
-  const box = new THREE.BoxGeometry(1, 1, 1);
-  const walls = new THREE.Mesh(box, new THREE.MeshBasicMaterial({ color: 0x8d9299, side: THREE.BackSide }));
-  walls.scale.set(10, 6, 10);
-  room.add(walls);
-  const lamps = [ // brightness, centre, size
-    [9.0, [0, 2.9, 0], [5, 0.05, 5]],
-    [5.0, [-4.9, 0.8, 1], [0.05, 2.6, 4]],
-    [3.5, [3, 1, 4.9], [4, 2.4, 0.05]],
-    [0.25, [0, -2.95, 0], [9, 0.05, 9]],
-  ];
-  for (const [brightness, centre, size] of lamps) {
-    const lamp = new THREE.Mesh(box, new THREE.MeshBasicMaterial());
-    lamp.material.color.setScalar(brightness);
-    lamp.position.set(...centre);
-    lamp.scale.set(...size);
-    room.add(lamp);
-  }
-  const filter = new THREE.PMREMGenerator(sharedRenderer(MeshCat));
-  shared.studioLight = filter.fromScene(room, 0.03).texture;
-  filter.dispose();
-  return shared.studioLight;
 }
 
 // A picture of few pixels without smoothed edges, for frames that must be quick where there is no GPU: the page's
@@ -123,20 +94,14 @@ function canvasRenderer(MeshCat) {
       if (canvas.width !== w) canvas.width = w;
       if (canvas.height !== h) canvas.height = h;
     },
-    // The page's first frame, a few pixels of it: its programs, reflections and shadow are made by the graphics process,
-    // which takes seconds without a GPU. Copying that picture would wait for all of it, and the page with it.
-    async warmUp(scene, camera) {
-      const gl = sharedRenderer(MeshCat), context = gl.getContext();
-      gl.shadowMap.enabled = gl.shadowMap.needsUpdate = facade.shadows;
-      gl.setViewport(0, 0, 8, 8);
-      gl.setScissor(0, 0, 8, 8);
-      gl.setScissorTest(true);
-      gl.render(scene, camera);
-      const done = context.fenceSync && context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    // When the graphics process has drawn what `render` told it to. Copying before would wait for it, and the page with it.
+    async drawn() {
+      const context = sharedRenderer(MeshCat).getContext();
+      const fence = context.fenceSync && context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
       context.flush();
-      const waits = () => done && !context.isContextLost() && context.getSyncParameter(done, context.SYNC_STATUS) !== context.SIGNALED;
-      for (let tries = 0; waits() && tries < 1000; tries += 1) await new Promise((resolve) => setTimeout(resolve, 30));
-      if (done) context.deleteSync(done);
+      const waits = () => fence && !context.isContextLost() && context.getSyncParameter(fence, context.SYNC_STATUS) !== context.SIGNALED;
+      for (let tries = 0; waits() && tries < 3000; tries += 1) await pause(4);
+      if (fence) context.deleteSync(fence);
     },
     render(scene, camera) {
       const gl = sharedRenderer(MeshCat);
@@ -154,6 +119,10 @@ function canvasRenderer(MeshCat) {
       gl.setScissor(0, 0, w, h);
       gl.setScissorTest(true);
       gl.render(scene, camera);
+    },
+    show() { // a full frame
+      const gl = sharedRenderer(MeshCat), w = canvas.width, h = canvas.height;
+      gl.getSize(inUse);
       context.clearRect(0, 0, w, h);
       context.drawImage(gl.domElement, 0, inUse.y - h, w, h, 0, 0, w, h);
     },
@@ -226,7 +195,6 @@ function makeStage(MeshCat, pane, quality) {
   renderer.shadows = quality !== "low";
   viewer.scene_tree.find(["Background"]).object.visible = false; // the pane's style sheet paints the ground, by theme
   viewer.hide_background();
-  if (quality !== "low") viewer.scene.environment = studioLight(MeshCat);
 
   const meshcatViewer = MeshCat.Viewer.prototype;
   viewer.set_3d_pane_size = function () {
@@ -242,7 +210,7 @@ function makeStage(MeshCat, pane, quality) {
       if (part.isLight && !part.shadow) part.castShadow = false; // meshcat switches it on for every root
       if (quality === "low" && part.material && !Array.isArray(part.material)) part.material = plainMaterial(THREE, part.material);
       for (const material of [].concat(part.material || [])) {
-        if (material.isMeshStandardMaterial) material.envMapIntensity = 0.35;
+        if (material.isMeshStandardMaterial) Object.assign(material, { envMapIntensity: 0.35, roughness: Math.max(material.roughness, SMOOTHEST) });
       }
     });
     meshcatViewer.set_object.call(this, path, object);
@@ -264,20 +232,22 @@ function makeStage(MeshCat, pane, quality) {
   };
   const stage = { viewer, renderer, beforeFrame: [], afterFrame: [], frames: 0, playing: () => false, resized() {} };
 
-  // Nothing is drawn before the page's first frame is warm: once for all its views.
-  const isCold = () => {
-    shared.warm = shared.warm || renderer.warmUp(viewer.scene, viewer.camera).catch(() => {}).then(() => {
-      shared.isWarm = true;
-      for (const other of shared.views) other.viewer.set_dirty();
+  // Nothing is drawn before the light is there: once for all views of the page.
+  const isDark = () => {
+    shared.lit = shared.lit || studioLight(THREE).then((light) => {
+      shared.studioLight = light;
+      for (const other of shared.views) other.light();
+      sharedRenderer(MeshCat).compile(viewer.scene, viewer.camera); // not in the task of the first frame
     });
-    return !shared.isWarm;
+    return !shared.studioLight;
   };
-  const draw = (now) => {
+  const draw = async (now) => {
     request = 0;
     if (dead) return;
+    if (shared.drawing) return stage.wake(); // the one renderer has a frame of ours or of another view to finish
     for (const act of stage.beforeFrame) act(now);
     // a cell out of sight is taken out of the page: it gets the pose, and is drawn when it comes back
-    if (viewer.needs_render && pane.isConnected && !shared.contextLost && !isCold()) {
+    if (viewer.needs_render && pane.isConnected && !shared.contextLost && !isDark()) {
       const wanted = levelNow();
       if (renderer.coarseness !== wanted) {
         renderer.coarseness = wanted;
@@ -285,6 +255,14 @@ function makeStage(MeshCat, pane, quality) {
       }
       const begun = performance.now();
       viewer.render();
+      if (wanted === 1) {
+        if (!(cost.get(1) < QUICK)) {
+          shared.drawing = true;
+          await renderer.drawn().finally(() => (shared.drawing = false));
+          if (dead) return;
+        }
+        renderer.show();
+      }
       learn(wanted, performance.now() - begun);
       stage.frames += 1;
       clearTimeout(sharpen);
@@ -306,8 +284,8 @@ function makeStage(MeshCat, pane, quality) {
     lastMotion = performance.now();
     viewer.set_dirty();
   };
-  stage.relight = () => {
-    if (quality !== "low") viewer.scene.environment = studioLight(MeshCat);
+  stage.light = () => {
+    if (quality !== "low") viewer.scene.environment = shared.studioLight || null;
     stage.moved();
   };
   viewer.controls.addEventListener("change", () => (lastMotion = performance.now()));
@@ -334,5 +312,6 @@ function makeStage(MeshCat, pane, quality) {
     pane.replaceChildren();
   };
   shared.views.add(stage);
+  stage.light();
   return stage;
 }

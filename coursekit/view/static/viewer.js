@@ -4,6 +4,7 @@
 export default function () {
   const commands = new Map(); // key -> bytes of one meshcat command: the whole scene, for views that come later
   const views = new Set();
+  let first = null; // the kernel's picture of the scene, which comes before any view
 
   // From the kernel: commands that are new or changed, and keys that are gone.
   function update(model, content, buffers) {
@@ -13,7 +14,9 @@ export default function () {
       content.keys.forEach((key, i) => commands.set(key, bytesOf(buffers[i]).slice()));
       for (const view of views) view.change(content.delete, buffers.map(bytesOf));
     }
-    if (content.type === "png") for (const view of views) view.picture(bytesOf(buffers[0]));
+    if (content.type !== "png") return;
+    if (!views.size) first = bytesOf(buffers[0]).slice();
+    for (const view of views) view.picture(bytesOf(buffers[0]));
   }
 
   return {
@@ -42,7 +45,8 @@ export default function () {
       box.style.height = `${model.get("height")}px`;
       const wait = element("div", { class: "ck-first" }, element("p", { class: "ck-wait" }, "The 3D view is on its way …"));
       box.append(wait);
-      const uncover = page().isWarm ? () => wait.remove() : showFirst(model, pane, wait, views);
+      const uncover = page().studioLight ? () => wait.remove() : showFirst(model, pane, wait, views, first);
+      first = null;
       el.classList.add("ck-root");
       el.append(box, silence);
       const unwatch = watchKernel(model, silence);
@@ -76,6 +80,7 @@ export default function () {
       let MeshCat, stage;
       try {
         MeshCat = await page().meshcat;
+        await pause(0); // the picture is shown first, and the stage is built in a task of its own
         if (signal && signal.aborted) return uncover();
         stage = makeStage(MeshCat, pane, model.get("quality"));
       } catch (error) {
@@ -233,7 +238,7 @@ function keys(key, camera, player, home) {
 
 // The first view of a page waits for its script and its shaders: meanwhile the kernel's own picture stands over the pane.
 // Gives what takes it away, once there is something better.
-function showFirst(model, pane, cover, views) {
+function showFirst(model, pane, cover, views, drawn) {
   const view = {
     change() {},
     picture(bytes) {
@@ -244,7 +249,8 @@ function showFirst(model, pane, cover, views) {
     },
   };
   views.add(view);
-  model.send({ type: "need_png", width: pane.clientWidth || 640, height: pane.clientHeight || 420 });
+  if (drawn) view.picture(drawn);
+  else model.send({ type: "need_png", width: pane.clientWidth || 640, height: pane.clientHeight || 420 });
   return () => {
     views.delete(view);
     cover.remove();
