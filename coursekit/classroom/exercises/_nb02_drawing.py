@@ -73,6 +73,7 @@ JOINT_SCREW = Exercise(
     hints=(
         Hint("always_hinge", "a slide does not turn: its omega is 0 and its v is the direction"),
         Hint("v_first", "rows are (omega; v): the direction of a slide goes into the lower half"),
+        Hint("slide_on_top", "the direction of a slide stands below, as v: nothing turns, so omega is 0"),
         Hint("slide_not_unit", "the direction of a slide has length 1, as omega has for a hinge"),
         Hint("slide_with_lever", "nothing turns in a slide: no -w x q; its v is the direction alone"),
         Hint("both_halves", "a slide has omega = 0: the direction stands in the lower half only"),

@@ -301,15 +301,13 @@ EXERCISES = [
             Hint(
                 "no_pitch", "v may have a part along omega: such a screw slides as it turns, yours only turns"
             ),
+            Hint(
+                "theta_everywhere", "I theta is theta * np.eye(3): theta alone is added to all nine entries"
+            ),
             Hint("slide_turns", "where omega is zero nothing turns: the joint slides along v"),
             Hint("v_for_q", "v is not a point of the axis: for a hinge through q, v = -omega x q"),
-            Hint(
-                "each_entry",
-                "np.exp takes every entry by itself; the exponential of a matrix is another thing",
-            ),
-            Hint(
-                "no_last_term", "the translation has three terms: (theta - sin(theta)) [omega]^2 v is missing"
-            ),
+            Hint("each_entry", "np.exp takes every entry by itself; a matrix has another exponential"),
+            Hint("no_last_term", "the translation has three terms: that with [omega]^2 v is missing"),
             Hint(
                 "terms_exchanged",
                 "in the translation, 1 - cos(theta) goes with [omega] and theta - sin(theta) with its square",
@@ -385,13 +383,13 @@ EXERCISES = [
             ("where all lengths are zero, every axis goes through the origin: v must vanish", _first_column),
         ),
         hints=(
-            Hint("about_x", "a joint turns about its own z; your [A] turns about x"),
-            Hint("frame_before", "you stopped one frame short: axis i is the z of frame i, M_1 ... M_i"),
+            Hint("about_x", "a joint turns about its own z; your [z] turns about x"),
+            Hint("frame_before", "you stopped one frame short: axis i is the z of frame i, N_1 ... N_i"),
             Hint(
-                "row_alone", "M_i alone is seen from frame i - 1: axis i needs the whole product M_1 ... M_i"
+                "row_alone", "N_i alone is seen from frame i - 1: axis i needs the whole product N_1 ... N_i"
             ),
-            Hint("standard", "these are modified rows: M_i comes from mdh_transform, not from dh_transform"),
-            Hint("one_side", "[A] changes its frame as T [A] T^-1: the factor on its right is missing"),
+            Hint("standard", "these are modified rows: N_i comes from mdh_transform, not from dh_transform"),
+            Hint("one_side", "[z] changes its frame as T [z] T^-1: the factor on its right is missing"),
             Hint("no_base", "these screws are in frame 0: the base takes them to the space frame"),
             Hint("no_offset", "the table's own offsets belong to the frames at theta = 0"),
         ),

@@ -287,6 +287,8 @@ EXERCISES = [
             Hint("plus", "v = w x q would be the velocity of q seen from the origin: you need its opposite"),
             Hint("v_first", "rows are (omega; v): the direction comes first"),
             Hint("not_unit", "w may come in any length: scale the direction to length 1 first"),
+            Hint("all_scaled", "omega has length 1, not all six numbers: scale w first, then take -w x q"),
+            Hint("v_not_scaled", "v comes from the direction of length 1, too: scale w first, then -w x q"),
             Hint("q_itself", "the lower half is a velocity, -w x q, not the point q"),
         ),
         laws=(
@@ -340,6 +342,9 @@ EXERCISES = [
             Hint("R_hat_p", "the lower left block is [p] R, in this order: first turn, then cross with p"),
             Hint("inverse", "that is the adjoint of the inverse: it maps from frame a to frame b"),
             Hint("minus_p", "[p] has its signs the wrong way round: [p] y must be p x y, for any y"),
+            Hint(
+                "rows_crossed", "np.cross(p, R) crosses p with the rows of R; [p] R does it with the columns"
+            ),
             Hint("no_p", "the lower left block is zero only where p is zero"),
         ),
         laws=(("Ad(T T) must be Ad(T) Ad(T)", _product),),

@@ -110,6 +110,7 @@ EXERCISES = [
                 "height",
                 "the angle of the line shoulder to P starts at the shoulder: P is d1 lower from there",
             ),
+            Hint("from_floor", "the angle phi is seen from the shoulder: atan2(z - d1, r - a1)"),
             Hint("no_psi", "the forearm is not straight: a3 turns theta3 by a constant angle"),
             Hint("plus_square", "the square of the forearm has the wrong sign in the law of cosines"),
             Hint(
@@ -144,6 +145,9 @@ EXERCISES = [
             Hint("sqrt", "R11 is a cosine; its sine is the root of 1 - R11 squared, not of 1 - R11"),
             Hint("xyz", "you solved for x-y-z angles; axes 4 and 6 are both along x, so it is x-y-x"),
             Hint("signs", "axes 4 and 6 point to -x: both angles change their sign"),
+            Hint(
+                "no_minus", "the first column is divided by -sin(theta5): the minus belongs to both entries"
+            ),
             Hint("one_only", "that is one of the two solutions: the wrist can bend to the other side"),
             Hint("half_flip", "with theta5 negative, joints 4 and 6 have to turn by half a turn as well"),
         ),

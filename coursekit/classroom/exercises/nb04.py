@@ -247,6 +247,7 @@ EXERCISES = [
         hints=(
             Hint("no_sign", "the size is right: count how often two rows change places"),
             Hint("diagonal", "these are the blocks on the diagonal; one of them is 0, so look at the others"),
+            Hint("diagonal_sign", "right sign, but the blocks are those on the diagonal: take the others"),
             Hint("sizes", "a block can be singular without being 0: take its determinant, not its size"),
             Hint("arm_only", "this is the arm's block alone: the wrist has its share in det J"),
             Hint("whole", "that is the determinant of the whole J: use the two 3 x 3 blocks"),

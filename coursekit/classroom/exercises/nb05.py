@@ -203,6 +203,9 @@ EXERCISES = [
         hints=(
             Hint("no_root", "these are eigenvalues: a half axis is the root of one"),
             Hint("in_rows", "the directions stand in the rows of your matrix; they belong in its columns"),
+            Hint(
+                "rows_reversed", "the directions are columns: V[:, ::-1] turns their order, V[::-1] the rows"
+            ),
             Hint("ascending", "shortest first: the longest half axis should come first, with its direction"),
             Hint(
                 "half_sorted",
@@ -272,6 +275,8 @@ EXERCISES = [
             ),
             Hint("turned_wrong_way", "R_BE takes E to B; to see v_B from E you need it the other way round"),
             Hint("theta2_alone", "frame E is turned by theta_1 + theta_2 against the base"),
+            Hint("turned_by_theta1", "frame E turns with link 2: by theta_1 + theta_2, not by theta_1 alone"),
+            Hint("link2_alone", "link 2 points along theta_1 + theta_2; you took theta_2 for the sum"),
             Hint("rate2_alone", "link 2 turns with both rates: joint 1 carries it along"),
         ),
     ),
@@ -341,6 +346,7 @@ EXERCISES = [
             Hint("inverse", "forces need no inverse: it is the transpose that carries them to the joints"),
             Hint("no_moment", "your torques do not change with the moment"),
             Hint("about_base", "the moment is given at the tool point: no p x f has to be added"),
+            Hint("point_moved", "Ad(T)^T moves the point as well; here the axes alone change, by R^T"),
             Hint("against", "these torques give way: the joints must push as the tool is to push"),
         ),
     ),
@@ -373,7 +379,12 @@ EXERCISES = [
                 "your steps lead away from the target: look at the sign, and at which pose e inverts",
             ),
             Hint("frozen", "J_b has to be computed anew in every step: it changes with theta"),
+            Hint("one_error", "e has to be computed anew in every step: the arm has moved"),
             Hint("from_the_start", "every step must begin where the last one ended"),
+            Hint(
+                "space_jacobian",
+                "e is seen from the tool, so it wants J_b: J_s gives twists of another point",
+            ),
             Hint("other_jacobian", "e is a body twist: it wants J_b, not the Jacobian along the base"),
             Hint("undamped", "k makes no difference to your run: these are Newton's steps"),
         ),

@@ -82,6 +82,7 @@ EXERCISES = [
                 "y_not_perpendicular",
                 "y is not perpendicular to x: a step between two points of a sphere is no tangent",
             ),
+            Hint("not_unit", "y has not length 1: divide it by its length once x is taken out of it"),
             Hint("x_along", "x and y have changed places: x is the normal, y the direction of motion"),
             Hint("about_origin", "the normal is measured from the origin; the sphere has its own centre"),
             Hint("no_last", "a pose is missing: the last point has one, too, with the step before it"),
@@ -128,6 +129,7 @@ EXERCISES = [
                 "wrong_entries",
                 "the second component takes the wrong entries of R, in the sums and below the fraction line",
             ),
+            Hint("y_sign", "the indices of 4wy run round the circle: r13 - r31, not r31 - r13"),
             Hint("vector_first", "the order here is (w, x, y, z): yours ends with the scalar"),
             Hint(
                 "roots_only",
@@ -317,6 +319,9 @@ EXERCISES = [
             Hint(
                 "turned_back", "this is the inverse rotation: the differences are taken the other way round"
             ),
+            Hint(
+                "not_flipped", "more than half a turn: where w < 0, take the quaternion with the other sign"
+            ),
             Hint("degrees", "the answer is in radians: yours looks like degrees"),
             Hint("not_divided", "k is a unit vector: divide (x, y, z) by its length"),
         ),
@@ -348,6 +353,7 @@ EXERCISES = [
             Hint("chord", "a straight line between quaternions is right in the middle, uneven elsewhere"),
             Hint("wrong_side", "the turn R_0^T R_1 is seen from the tool: it stands behind R_0"),
             Hint("from_identity", "your way begins at the identity, not at R_0"),
+            Hint("away", "R_1^T R_0 leads from R_1 to R_0: the turn that is left is R_0^T R_1"),
             Hint("backwards", "at t = 0 it has to be R_0, at t = 1 R_1"),
             Hint("vectors", "products k theta do not add: take the product of the turn between, R_0^T R_1"),
             Hint("long_way", "that is the long way round: q and -q are one attitude, take the nearer"),

@@ -17,6 +17,11 @@ def joint_v_first(kind, w, q):
     return np.roll(right.joint_screw(kind, w, q), 3)
 
 
+def joint_slide_on_top(kind, w, q):
+    S = right.joint_screw(kind, w, q)
+    return np.roll(S, 3) if kind == "prismatic" else S
+
+
 def joint_slide_not_unit(kind, w, q):
     S = right.joint_screw(kind, w, q)
     return S * np.linalg.norm(w) if kind == "prismatic" else S
@@ -95,6 +100,7 @@ WRONG = {
     "joint_screw": {
         "always_hinge": joint_always_hinge,
         "v_first": joint_v_first,
+        "slide_on_top": joint_slide_on_top,
         "slide_not_unit": joint_slide_not_unit,
         "slide_with_lever": joint_slide_with_lever,
         "both_halves": joint_both_halves,

@@ -92,6 +92,10 @@ def torques_about_base(J_b, T, moment, force):
     return _torques(J_b, T[:3, :3].T, moment + np.cross(T[:3, 3], force), force)
 
 
+def torques_with_the_point_moved(J_b, T, moment, force):
+    return J_b.T @ lie.adjoint(T).T @ np.concatenate([moment, force])
+
+
 def torques_against(J_b, T, moment, force):
     return -_torques(J_b, T[:3, :3].T, moment, force)
 
@@ -128,12 +132,20 @@ def loop_frozen(robot, T_sd, rows, k):
     return rows[-1] + right.dls_step(robot.jacobian_body(rows[0]), _error(robot, T_sd, rows[-1]), k)
 
 
+def loop_with_one_error(robot, T_sd, rows, k):
+    return _next(robot, _error(robot, T_sd, rows[0]), rows, k)
+
+
 def loop_from_the_start(robot, T_sd, rows, k):
     return rows[0] + right.dls_step(robot.jacobian_body(rows[-1]), _error(robot, T_sd, rows[-1]), k)
 
 
 def loop_with_the_other_jacobian(robot, T_sd, rows, k):
     return rows[-1] + right.dls_step(robot.jacobian_geometric(rows[-1]), _error(robot, T_sd, rows[-1]), k)
+
+
+def loop_with_the_space_jacobian(robot, T_sd, rows, k):
+    return rows[-1] + right.dls_step(robot.jacobian_space(rows[-1]), _error(robot, T_sd, rows[-1]), k)
 
 
 def loop_undamped(robot, T_sd, rows, k):
@@ -158,13 +170,16 @@ WRONG = {
         "inverse": torques_by_inverse,
         "no_moment": torques_without_moment,
         "about_base": torques_about_base,
+        "point_moved": torques_with_the_point_moved,
         "against": torques_against,
     },
     "dls_loop": {
         "space_error": _loop(loop_space_error),
         "backwards": _loop(loop_backwards),
         "frozen": _loop(loop_frozen),
+        "one_error": _loop(loop_with_one_error),
         "from_the_start": _loop(loop_from_the_start),
+        "space_jacobian": _loop(loop_with_the_space_jacobian),
         "other_jacobian": _loop(loop_with_the_other_jacobian),
         "undamped": _loop(loop_undamped),
     },

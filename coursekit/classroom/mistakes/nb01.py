@@ -131,6 +131,12 @@ def _with_terms(S, theta, first, second, third):
     return T
 
 
+def exp_theta_everywhere(S, theta):
+    T = _with_terms(S, theta, 0, 1 - np.cos(theta), theta - np.sin(theta))
+    T[:3, 3] += theta * S[3:].sum()
+    return T
+
+
 def exp_with_v_for_q(S, theta):
     T = right.screw_exp(S, theta)
     T[:3, 3] = S[3:] - T[:3, :3] @ S[3:]
@@ -266,6 +272,7 @@ WRONG = {
         "theta_v": exp_theta_v,
         "sin_sin": exp_sin_sin,
         "no_pitch": exp_without_pitch,
+        "theta_everywhere": exp_theta_everywhere,
         "slide_turns": exp_slide_turns,
         "v_for_q": exp_with_v_for_q,
         "each_entry": exp_of_each_entry,

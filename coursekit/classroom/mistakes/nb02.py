@@ -41,6 +41,15 @@ def screw_not_unit(w, q):
     return right.screw_axis(w, q) * np.linalg.norm(w)
 
 
+def screw_all_scaled(w, q):
+    S = np.concatenate([w, -np.cross(w, q)])
+    return S / np.linalg.norm(S)
+
+
+def screw_with_v_not_scaled(w, q):
+    return np.concatenate([right.screw_axis(w, q)[:3], -np.cross(w, q)])
+
+
 def screw_with_q(w, q):
     return np.concatenate([right.screw_axis(w, q)[:3], q])
 
@@ -82,6 +91,12 @@ def adjoint_of_inverse(T):
 def adjoint_minus_p(T):
     Ad = right.adjoint(T)
     Ad[3:, :3] *= -1
+    return Ad
+
+
+def adjoint_with_rows_crossed(T):
+    Ad = right.adjoint(T)
+    Ad[3:, :3] = np.cross(T[:3, 3], T[:3, :3])
     return Ad
 
 
@@ -128,6 +143,8 @@ WRONG = {
         "plus": screw_with_plus,
         "v_first": screw_v_first,
         "not_unit": screw_not_unit,
+        "all_scaled": screw_all_scaled,
+        "v_not_scaled": screw_with_v_not_scaled,
         "q_itself": screw_with_q,
     },
     "axis_of": {
@@ -141,6 +158,7 @@ WRONG = {
         "R_hat_p": adjoint_R_hat_p,
         "inverse": adjoint_of_inverse,
         "minus_p": adjoint_minus_p,
+        "rows_crossed": adjoint_with_rows_crossed,
         "no_p": adjoint_without_p,
     },
     "body_screws": {

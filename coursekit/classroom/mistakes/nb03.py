@@ -75,6 +75,12 @@ def elbow_without_height(r, z, lengths):  # TPK4170 report, eq. 4.8
     return _elbow(r, z, lengths, height=0)
 
 
+def elbow_from_the_floor(r, z, lengths):
+    a1, d1, *_ = lengths
+    phi = np.arctan2(z - d1, r - a1) - np.arctan2(z, r)
+    return right.elbow_solutions(r, z, lengths) + [phi, 0]
+
+
 def elbow_without_psi(r, z, lengths):
     return _elbow(r, z, lengths, psi=0)
 
@@ -109,6 +115,10 @@ def wrist_xyz(R):  # TPK4170 report, text at eq. 4.17
 
 def wrist_without_signs(R):
     return right.wrist_angles(R) * [-1, 1, -1]
+
+
+def wrist_without_minus(R):
+    return right.wrist_angles(R) + [np.pi, 0, 0]
 
 
 def wrist_one_only(R):
@@ -313,6 +323,7 @@ WRONG = {
     },
     "elbow_solutions": {
         "height": elbow_without_height,
+        "from_floor": elbow_from_the_floor,
         "no_psi": elbow_without_psi,
         "plus_square": elbow_plus_square,
         "one_only": elbow_one_only,
@@ -322,6 +333,7 @@ WRONG = {
         "sqrt": wrist_by_wrong_root,
         "xyz": wrist_xyz,
         "signs": wrist_without_signs,
+        "no_minus": wrist_without_minus,
         "one_only": wrist_one_only,
         "half_flip": wrist_half_flipped,
     },

@@ -97,6 +97,7 @@ WRONG = {
     "det_from_blocks": {
         "no_sign": blocks_without_sign,
         "diagonal": blocks_on_the_diagonal,
+        "diagonal_sign": lambda J: -blocks_on_the_diagonal(J),
         "sizes": sizes_of_the_blocks,
         "arm_only": lambda J: np.linalg.det(J[3:, :3]),
         "whole": lambda J: np.linalg.det(J),

@@ -137,6 +137,11 @@ def ellipsoid_in_rows(J):
     return lengths, axes.T
 
 
+def ellipsoid_rows_reversed(J):
+    lengths, axes = right.ellipsoid(J)
+    return lengths, axes[::-1, ::-1]
+
+
 def ellipsoid_ascending(J):
     lengths, axes = right.ellipsoid(J)
     return lengths[::-1], axes[:, ::-1]
@@ -198,6 +203,18 @@ def velocity_turned_by_theta2(theta, rate, lengths):
     return v_B, _seen_from_tool(theta * [0, 1], v_B, lambda c, s: np.array([[c, -s], [s, c]]))
 
 
+def velocity_turned_by_theta1(theta, rate, lengths):
+    v_B, _ = right.tool_velocity(theta, rate, lengths)
+    return v_B, _seen_from_tool(theta * [1, 0], v_B, lambda c, s: np.array([[c, -s], [s, c]]))
+
+
+def velocity_with_link2_alone(theta, rate, lengths):
+    (t1, t2), (l1, l2), (r1, r2) = theta, lengths, rate
+    v_B = l1 * r1 * np.array([-np.sin(t1), np.cos(t1)])
+    v_B = v_B + l2 * (r1 + r2) * np.array([-np.sin(t2), np.cos(t2)])
+    return v_B, _seen_from_tool(theta * [0, 1], v_B, lambda c, s: np.array([[c, -s], [s, c]]))
+
+
 def velocity_with_rate2_alone(theta, rate, lengths):
     (t1, t12), (l1, l2) = np.cumsum(theta), lengths
     v_B = np.array([-l1 * np.sin(t1), l1 * np.cos(t1)]) * rate[0]
@@ -234,6 +251,7 @@ WRONG = {
     "ellipsoid": {
         "no_root": ellipsoid_without_root,
         "in_rows": ellipsoid_in_rows,
+        "rows_reversed": ellipsoid_rows_reversed,
         "ascending": ellipsoid_ascending,
         "half_sorted": ellipsoid_half_sorted,
         "joint_space": ellipsoid_in_joint_space,
@@ -250,6 +268,8 @@ WRONG = {
         "not_a_turn": velocity_by_no_rotation,
         "turned_wrong_way": velocity_turned_wrong_way,
         "theta2_alone": velocity_turned_by_theta2,
+        "turned_by_theta1": velocity_turned_by_theta1,
+        "link2_alone": velocity_with_link2_alone,
         "rate2_alone": velocity_with_rate2_alone,
     },
     **more.WRONG,

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from coursekit.classroom.mistakes import Solved
-from coursekit.kinematics import lie, rotations
+from coursekit.classroom.mistakes import Solved, _nb06_turns
 
 right = Solved("nb06")
 
@@ -68,6 +67,13 @@ def frames_central(points, centre):
     return _frames_along(points, centre, np.gradient(points, axis=0))
 
 
+def frames_not_unit(points, centre):
+    T, step = right.tool_frames(points, centre), np.diff(points, axis=0)
+    d = np.concatenate([step, step[-1:]])
+    T[:, :3, 1:3] *= np.sum(d * T[:, :3, 1], axis=1)[:, None, None]
+    return T
+
+
 def frames_with_last_copied(points, centre):
     T = right.tool_frames(points, centre)
     T[-1, :3, 1] = T[-2, :3, 1]
@@ -94,6 +100,15 @@ def quaternion_as_printed(R):  # RPI mini project 3, problem 1: q2 of the report
     q = _roots(R)
     q[1] = 0.5 * np.sqrt((_signs(R)[0] ** 2 + a * a + b * b) / (3 + np.trace(R)))
     return q
+
+
+def quaternion_with_y_turned(R):
+    diagonal = _roots(R)
+    (x, y, z), k = _signs(R) * [1, -1, 1], int(np.argmax(diagonal))
+    a, b, c = R[0, 1] + R[1, 0], R[0, 2] + R[2, 0], R[1, 2] + R[2, 1]
+    line = np.array([[0, x, y, z], [x, 0, a, b], [y, a, 0, c], [z, b, c, 0]])[k]
+    line[k] = 4 * diagonal[k] ** 2
+    return line / np.linalg.norm(line)
 
 
 def quaternion_vector_first(R):
@@ -244,90 +259,12 @@ def speed_of_the_last_joint(q, points, v_max):
     return 1 / _use(q, points, v_max)[:, -1].max()
 
 
-# ---- angle and axis, and the way between two attitudes
-
-
-def _differences(R):
-    return np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
-
-
-def axis_by_the_textbook(R):  # RPI mini project 3, problem 1
-    theta = np.arccos(np.clip((np.trace(R) - 1) / 2, -1, 1))
-    if np.sin(theta) < 1e-9:
-        return _differences(R) / 2
-    return _differences(R) / (2 * np.sin(theta)) * theta
-
-
-def axis_alone(R):
-    beta = right.angle_axis(R)
-    return beta / max(np.linalg.norm(beta), 1e-300)
-
-
-def axis_by_half_the_angle(R):
-    return right.angle_axis(R) / 2
-
-
-def axis_turned_back(R):
-    return -right.angle_axis(R)
-
-
-def axis_in_degrees(R):
-    return np.degrees(right.angle_axis(R))
-
-
-def axis_not_divided(R):
-    beta = right.angle_axis(R)
-    return np.sin(np.linalg.norm(beta) / 2) * beta
-
-
-def slerp_of_entries(R_0, R_1, t):
-    return (1 - t) * R_0 + t * R_1
-
-
-def slerp_of_angles(R_0, R_1, t):
-    return rotations.from_zyx((1 - t) * right.zyx(R_0) + t * right.zyx(R_1))
-
-
-def _quaternions(R_0, R_1):
-    a, b = (rotations.quaternion(R) for R in (R_0, R_1))
-    return a, b if a @ b >= 0 else -b
-
-
-def slerp_on_the_chord(R_0, R_1, t):
-    a, b = _quaternions(R_0, R_1)
-    return rotations.from_quaternion((1 - t) * a + t * b)
-
-
-def slerp_on_the_wrong_side(R_0, R_1, t):
-    return lie.exp3(t * right.angle_axis(R_0.T @ R_1)) @ R_0
-
-
-def slerp_from_identity(R_0, R_1, t):
-    return lie.exp3(t * right.angle_axis(R_1))
-
-
-def slerp_backwards(R_0, R_1, t):
-    return right.slerp(R_1, R_0, t)
-
-
-def slerp_of_vectors(R_0, R_1, t):
-    return lie.exp3((1 - t) * right.angle_axis(R_0) + t * right.angle_axis(R_1))
-
-
-def slerp_the_long_way(R_0, R_1, t):
-    """Between quaternions with w >= 0, whichever way they lie."""
-    a, b = rotations.quaternion(R_0), rotations.quaternion(R_1)
-    angle = np.arccos(np.clip(a @ b, -1, 1))
-    if np.sin(angle) < 1e-9:
-        return R_0
-    return rotations.from_quaternion((np.sin((1 - t) * angle) * a + np.sin(t * angle) * b) / np.sin(angle))
-
-
 WRONG = {
     "tool_frames": {
         "inward": frames_inward,
         "left_handed": frames_left_handed,
         "y_not_perpendicular": frames_with_chord,
+        "not_unit": frames_not_unit,
         "x_along": frames_swapped,
         "about_origin": frames_about_origin,
         "no_last": frames_without_last,
@@ -337,6 +274,7 @@ WRONG = {
     },
     "quaternion": {
         "wrong_entries": quaternion_as_printed,
+        "y_sign": quaternion_with_y_turned,
         "vector_first": quaternion_vector_first,
         "roots_only": quaternion_roots_only,
         "lost_at_half_turn": quaternion_signs_of_differences,
@@ -375,22 +313,5 @@ WRONG = {
         "one_step": speed_one_step,
         "signed": speed_signed,
     },
-    "angle_axis": {
-        "textbook": axis_by_the_textbook,
-        "axis_alone": axis_alone,
-        "half_angle": axis_by_half_the_angle,
-        "turned_back": axis_turned_back,
-        "degrees": axis_in_degrees,
-        "not_divided": axis_not_divided,
-    },
-    "slerp": {
-        "entries": slerp_of_entries,
-        "angles": slerp_of_angles,
-        "chord": slerp_on_the_chord,
-        "wrong_side": slerp_on_the_wrong_side,
-        "from_identity": slerp_from_identity,
-        "backwards": slerp_backwards,
-        "vectors": slerp_of_vectors,
-        "long_way": slerp_the_long_way,
-    },
+    **_nb06_turns.WRONG,
 }
