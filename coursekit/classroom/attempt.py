@@ -29,6 +29,7 @@ import numpy as np
 from .course import PACKAGE
 from .exercise import Exercise, Misfit, answer, misshapen, thaw
 from .library import library_call
+from .plain import in_plain_words
 from .source import catches_everything
 
 LINES = 200_000  # of the student's, in one call
@@ -204,6 +205,8 @@ def _explain(exercise: Exercise, function: Callable, error: Exception, arguments
     text = f"line {line} of {frame.f_code.co_name} raises {text}{_source_line(frame.f_code, at)}"
     if told := _variables(frame, at):
         text += f"\n  there {told}"
+    if told := in_plain_words(str(error)):
+        text += f"\n  {told}"
     return Attempt(fault="error", text=text)
 
 
@@ -228,7 +231,9 @@ def _source_line(code: CodeType, at: int) -> str:
 def _variables(frame: FrameType, at: int) -> str:
     """ "i = 2, rows has shape (2, 4)": the variables of the line, or the first ones if it cannot be read."""
     here = {k: v for k, v in frame.f_locals.items() if not callable(v) and not inspect.ismodule(v)}
-    named = re.findall(r"[A-Za-z_]\w*", linecache.getline(frame.f_code.co_filename, at))
+    line = linecache.getline(frame.f_code.co_filename, at)
+    made_last = " ".join(reversed(re.split(r"(?<![=<>!])=(?!=)", line, maxsplit=1)))
+    named = re.findall(r"[A-Za-z_]\w*", made_last)  # what the line uses tells more than what it was to make
     names = [n for n in dict.fromkeys(named) if n in here] if named else list(here)
     return ", ".join(_brief(name, here[name]) for name in names[:SHOWN])
 

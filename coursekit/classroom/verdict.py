@@ -26,6 +26,7 @@ from .already import not_a_pose, what_is_right
 from .attempt import Attempt, line_of_nan
 from .exercise import Exercise, misshapen, thaw
 from .library import permitted
+from .plain import in_plain_words
 from .repair import Found, repair
 from .transforms import done_to_the_right_answer
 
@@ -169,7 +170,7 @@ def _not_finite(exercise: Exercise, examples, answers, function) -> Verdict | No
     line, what = line_of_nan(function, examples[k].arguments) if function else (0, "")
     text = f"{where}the answer holds NaN or infinity"
     if line:
-        text += f"; it comes from line {line} ({what})"
+        text += f"; it comes from line {line} ({in_plain_words(what) or what})"
     return Verdict("misfit", text, step="nan", example=k)
 
 

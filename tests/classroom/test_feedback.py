@@ -25,6 +25,7 @@ from coursekit import classroom
 from coursekit.classroom import repair
 from coursekit.classroom.course import the_course
 from coursekit.classroom.mistakes import Solved
+from coursekit.classroom.repair import texts
 from tests.classroom.mutations import reasons, survivors
 
 HERE = Path(__file__).resolve().parent
@@ -105,6 +106,16 @@ T5 = "np.arctan2(np.hypot(R[0, 1], R[0, 2]), R[0, 0])"
 )
 def test_what_was_wrong_is_said_however_it_was_written(exercise, code, say):
     assert say in diagnosis({"exercise": exercise, "code": code}).say
+
+
+def test_a_place_that_tells_nothing_is_not_told():
+    """Three kinds of edit at no line of its own: then what is right already is said."""
+    three = [("reversed", ""), ("halves", ""), ("flipped", "")]
+    assert texts.sentence(three, [1]) == ""
+    assert texts.sentence(three, [4]) == "look at line 4: something in this line"
+    assert texts.sentence(three[:1], [1]).startswith("look at several lines at once: an order")
+    two = texts.sentence([("transposed", ""), ("inverse", "")], [4])
+    assert two.endswith("something that is transposed or should be; or an inverse that is missing")
 
 
 def test_repair_keeps_its_budget(monkeypatch):

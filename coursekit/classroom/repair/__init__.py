@@ -63,7 +63,8 @@ def repair(exercise: Exercise, function: Callable, examples: list, cost: int) ->
     if len(lines) > 2 or lines[-1] - lines[0] > 1:
         return None  # it could be here or there
     kinds = [(hit.kind, hit.what) for hit in hits]
-    return Found(sentence(kinds, lines, search.body), phrase(kinds, lines, search.body))
+    text = sentence(kinds, lines, search.body)
+    return Found(text, phrase(kinds, lines, search.body)) if text else None
 
 
 class _Search:

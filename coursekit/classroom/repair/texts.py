@@ -18,7 +18,7 @@ TEXTS = {
     "name": "`{}`: another variable belongs there",
     "index": "an index or a slice",
     "entries": "the order of the entries",
-    "transposed": "something that is transposed, or should be",
+    "transposed": "something that is transposed or should be",
     "inverse": "an inverse that is missing",
     "reversed": "an order from last to first",
     "half": "a factor 2",
@@ -65,9 +65,14 @@ def phrase(kinds: list[tuple[str, str]], lines: list[int], body: int = 2) -> str
 
 
 def sentence(kinds: list[tuple[str, str]], lines: list[int], body: int = 2) -> str:
-    """ "look at line 4: a sign", from the kinds of all edits that would do, and their lines."""
-    where = _lines(lines, body)
-    return f"look at {where or 'several lines at once'}: {_what(kinds)}"
+    """ "look at line 4: a sign", from the kinds of all edits that would do, and their lines.
+
+    '' where neither a line nor a kind can be told.
+    """
+    where, what = _lines(lines, body), _what(kinds)
+    if not where and what == TEXTS["somewhere"]:
+        return ""
+    return f"look at {where or 'several lines at once'}: {what}"
 
 
 def _lines(lines: list[int], body: int) -> str:
@@ -80,7 +85,9 @@ def _lines(lines: list[int], body: int) -> str:
 def _what(kinds: list[tuple[str, str]]) -> str:
     """One kind, or two of which either may be meant; three kinds say nothing."""
     texts = list(dict.fromkeys(_one(kind, what) for kind, what in kinds))
-    return " or ".join(texts) if len(texts) < 3 else TEXTS["somewhere"]
+    if len(texts) > 2:
+        return TEXTS["somewhere"]
+    return ("; or " if any(" or " in text for text in texts) else " or ").join(texts)
 
 
 def _one(kind: str, what: str) -> str:
