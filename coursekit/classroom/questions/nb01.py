@@ -68,7 +68,7 @@ QUESTIONS = [
         name="other_way",
         draw=lambda rng: {k: v for k, v in _frame(rng).items() if k != "x"},
         text="Frame b stands at ({px}, {py}, 0) m in frame a and is turned by 90 degrees about z. Where\n"
-        "does the origin of a stand, seen from b? [x, y, z] in metres",
+        "is the origin of frame a, seen from b? [x, y, z] in metres",
         answer=lambda px, py: [-py, px, 0],
         slips={
             "-p is the way back, but written in a: seen from b it is turned, -R'p.": lambda px, py: [

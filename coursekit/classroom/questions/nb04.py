@@ -76,6 +76,9 @@ QUESTIONS = [
         answer=lambda a3, d4: float(np.arctan2(a3, d4)),
         slips={
             "That is the ratio, the tangent of the angle.": lambda a3, d4: a3 / d4,
+            "The legs have changed places: a small a3 makes a small angle.": lambda a3, d4: float(
+                np.arctan2(d4, a3)
+            ),
             "d4 is a leg, not the longest side.": lambda a3, d4: float(np.arcsin(a3 / d4)),
         },
         tolerance=1.1e-5,
@@ -88,6 +91,7 @@ QUESTIONS = [
         answer=lambda m: 3 + 6 - m,
         slips={
             "Four or more axes through one point always span three dimensions only.": lambda m: 6,
+            "These axes give three motions together; the others add theirs.": lambda m: 3,
             "One motion is lost for each axis beyond three.": lambda m: 6 - m,
         },
     ),
