@@ -52,7 +52,7 @@ class Server:
         self.path = folder / f"{name}.log"
         self.log = self.path.open("w")
         self.process = subprocess.Popen(
-            [sys.executable, "-m", *command],
+            command,
             cwd=folder,
             env={**os.environ, **(environment or {})},
             stdout=self.log,
@@ -97,10 +97,17 @@ class Lab(Server):
         environment = {**private_folders(folder), "PYTHONDONTWRITEBYTECODE": "1"}
         for name in ("JUPYTERLAB_SETTINGS_DIR", "JUPYTERLAB_WORKSPACES_DIR"):
             environment[name] = str(folder / name.lower())
-        command = ["jupyterlab", "--no-browser", "--allow-root", "--ServerApp.ip=127.0.0.1"]
+        command = [
+            sys.executable,
+            "-m",
+            "jupyterlab",
+            "--no-browser",
+            "--allow-root",
+            "--ServerApp.ip=127.0.0.1",
+        ]
         command += [f"--ServerApp.port={port}", "--ServerApp.port_retries=0"]
         command += [f"--ServerApp.root_dir={self.notebooks}", f"--IdentityProvider.token={self.token}"]
-        command += ["--LabApp.expose_app_in_browser=True"]
+        command += [f"--{app}.expose_app_in_browser=True" for app in ("LabApp", "JupyterNotebookApp")]
         super().__init__("lab", f"{self.url}/api/status?token={self.token}", command, folder, environment)
 
     def write(self, name, *cells):
@@ -129,10 +136,9 @@ class Notebook:
         if message.type == "error" and not any(own in said for own in LABS_OWN):
             self.errors.append(said)
 
-    def open(self, name):
-        self.page.goto(
-            f"{self.lab.url}/lab/tree/{name}?token={self.lab.token}&reset", wait_until="domcontentloaded"
-        )
+    def open(self, name, where="lab/tree"):
+        url = f"{self.lab.url}/{where}/{name}?token={self.lab.token}&reset"
+        self.page.goto(url, wait_until="domcontentloaded")
         self._ready()
         return self
 
@@ -170,7 +176,8 @@ class Notebook:
         )
 
     def run_all(self):
-        self.command("notebook:run-all-cells")
+        # without waiting for its promise, which WebKit's driver may lose meanwhile
+        self.page.evaluate("() => void window.jupyterapp.commands.execute('notebook:run-all-cells')")
         self.page.wait_for_function(
             """() => { const n = window.jupyterapp.shell.currentWidget.content;
                        return n.widgets.every((c) => c.model.type !== "code" || c.model.executionCount

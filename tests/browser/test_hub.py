@@ -51,7 +51,8 @@ c.Spawner.notebook_dir = {str(notebooks)!r}
 """
         )
         # its data base, cookie secret and process numbers go to its folder
-        super().__init__("hub", f"http://{self.address}/hub/login", ["jupyterhub", "-f", str(config)], folder)
+        command = [sys.executable, "-m", "jupyterhub", "-f", str(config)]
+        super().__init__("hub", f"http://{self.address}/hub/login", command, folder)
 
 
 class Account:

@@ -1,0 +1,71 @@
+"""One explorer each where most students are not: Notebook 7, Firefox, WebKit (the engine of Safari)."""
+
+import contextlib
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from coursekit import robots
+from tests.browser.drivers import Firefox, WebKit
+from tests.browser.lab import Notebook
+
+pytestmark = pytest.mark.browser
+
+IMPORT = "from coursekit import robots, view"
+SHOW = "panel = view.explore(robots.kuka_kr6())\npanel"
+ORANGE = """() => {
+    const canvas = document.querySelector(".ck-viewer canvas");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      const [red, green, blue] = data.slice(i, i + 3);
+      count += red > 150 && green < 0.75 * red && blue < 0.5 * red;
+    }
+    return count / (data.length / 4);
+}"""
+
+
+DRAWN_ANEW = "(old) => document.querySelector('.ck-viewer canvas').toDataURL() !== old"
+
+
+@contextlib.contextmanager
+def chromium(request, folder):
+    context = request.getfixturevalue("browser").new_context(viewport={"width": 1280, "height": 900})
+    yield context.new_page()
+    context.close()
+
+
+@pytest.mark.parametrize(
+    ("where", "driver"),
+    [("notebooks", None), ("lab/tree", Firefox), ("lab/tree", WebKit)],
+    ids=["Notebook 7", "Firefox", "WebKit"],
+)
+def test_a_slider_moves_the_arm_and_the_words(where, driver, lab, request, tmp_path):
+    opened = contextlib.closing(driver(tmp_path)) if driver else chromium(request, tmp_path)
+    with opened as page:
+        notebook = Notebook(lab, page)
+        name = f"{driver.__name__ if driver else 'seven'}.ipynb"
+        notebook.open(lab.write(name, IMPORT, SHOW), where)
+        others = list(notebook.errors)  # of the page itself, before anything of the course ran in it
+        notebook.run_all()
+        notebook.wait_view()
+        assert page.evaluate(ORANGE) > 0.01  # the arm is in the picture
+        before = notebook.pixels()
+
+        page.focus("[role=slider]")
+        page.keyboard.press("PageUp")
+        notebook.settle()
+        kr6 = robots.kuka_kr6()
+        theta = kr6.home + np.radians([10, 0, 0, 0, 0, 0])
+        np.testing.assert_allclose(notebook.kernel("panel.values['theta'].tolist()"), theta, atol=1e-9)
+        tool = kr6.fk(theta)
+        np.testing.assert_allclose(notebook.wait_transform("/ck/robot/6/tool", tool), tool, atol=1e-9)
+        assert f"x = {1000 * tool[0, 3]:9.3f}" in page.inner_text(".ck-control .ck-text")
+        page.wait_for_function(DRAWN_ANEW, arg=before, timeout=30_000)
+        assert page.evaluate(ORANGE) > 0.01
+        if folder := os.environ.get("COURSEKIT_SCREENSHOTS"):
+            notebook.screenshot(Path(folder) / f"{name}.png")
+        assert notebook.errors == others
+        assert not driver or page.errors() == []
