@@ -11,6 +11,7 @@ from __future__ import annotations
 import contextlib
 import json
 import numbers
+import sys
 import zlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -160,10 +161,13 @@ def remember(name: str) -> None:
     _done.add(name)
     if (path := _file()) is None:
         return
+    text = json.dumps(sorted(_done | _remembered())) + "\n"
     with contextlib.suppress(
         OSError
     ):  # a folder that cannot be written to: the tick lasts as the kernel does
-        path.write_text(json.dumps(sorted(_done | _remembered())) + "\n", encoding="utf-8")
+        if sys.platform == "emscripten":
+            path.unlink(missing_ok=True)  # JupyterLite waits for ever where a JSON file is made shorter
+        path.write_text(text, encoding="utf-8")
 
 
 def _file(folder: Path | None = None) -> Path | None:

@@ -2,6 +2,7 @@
 
 import functools
 import http.server
+import os
 import threading
 
 
@@ -11,6 +12,7 @@ class Served:
     def __init__(self, folder):
         handler = functools.partial(_Quiet, directory=str(folder))
         self.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
+        self.server.sent = 0  # bytes of the files that were sent
         self.url = f"http://127.0.0.1:{self.server.server_port}"
         self.thread = threading.Thread(target=self.server.serve_forever, daemon=True)
 
@@ -25,6 +27,10 @@ class Served:
 
 
 class _Quiet(http.server.SimpleHTTPRequestHandler):
+    def copyfile(self, source, outputfile):
+        super().copyfile(source, outputfile)
+        self.server.sent += os.fstat(source.fileno()).st_size
+
     def log_message(self, *_):
         pass
 

@@ -34,7 +34,9 @@ RUN = """async ([id, source]) => {
   if (source !== null) notebook.widgets[index].model.sharedModel.setSource(source);
   notebook.activeCellIndex = index;
   notebook.deselectAll();
-  await window.jupyterapp.commands.execute("notebook:run-cell");
+  const late = new Promise((done) => setTimeout(done, 120_000, "late"));
+  const running = window.jupyterapp.commands.execute("notebook:run-cell");
+  if ((await Promise.race([running, late])) === "late") return "no end";
   const outputs = notebook.widgets[index].model.outputs.toJSON();
   return outputs.map((one) => one.text || one.evalue || "").join("");
 }"""
@@ -49,6 +51,11 @@ RIGHT = """def dh_transform(a, alpha, d, theta):
     ca, sa, ct, st = np.cos(alpha), np.sin(alpha), np.cos(theta), np.sin(theta)
     first = [[ct, -st * ca, st * sa, a * ct], [st, ct * ca, -ct * sa, a * st]]
     return np.array([*first, [0, sa, ca, d], [0, 0, 0, 1]])"""
+CHAIN = """def fk_dh(rows, theta, base, tool):
+    T = base
+    for (a, alpha, d, offset), q in zip(rows, theta):
+        T = T @ dh_transform(a, alpha, d, offset + q)
+    return T @ tool"""
 
 
 class Student(Visit):
@@ -89,6 +96,7 @@ def work(browser, run, served, tmp_path_factory):
         student.run("setup")
         told["wrong"] = (student.run("ex-dh-transform", WRONG), student.run("check-dh-transform"))[1]
         told["right"] = (student.run("ex-dh-transform", RIGHT), student.run("check-dh-transform"))[1]
+        told["second"] = (student.run("ex-fk-dh", CHAIN), student.run("check-fk-dh"))[1]
         student.page.evaluate("() => window.jupyterapp.commands.execute('docmanager:save')")
         student.page.wait_for_function(
             "() => !window.jupyterapp.shell.currentWidget.context.model.dirty", timeout=60_000
@@ -111,6 +119,7 @@ def test_a_check_fails_and_passes_there(work):
     assert work["wrong"].startswith("✗ dh_transform")
     assert "modified" in work["wrong"]
     assert work["right"].startswith("✓ dh_transform: right on")
+    assert work["second"].startswith("✓ fk_dh: right on")  # its tick goes to a file that is there by now
 
 
 def test_what_was_written_is_there_after_a_reload(work):
@@ -159,8 +168,8 @@ def test_the_copy_comes_back_in_another_browser(browser, run, served, work, tmp_
             for name in files.namelist():
                 out.writestr(name, files.read(name))
         other.run("ex-dh-transform", "# something else")
-        other.page.set_input_files("#ck-bar input[type=file]", str(again))
-        other.page.wait_for_event("domcontentloaded", timeout=60_000)
+        with other.page.expect_event("domcontentloaded", timeout=60_000):
+            other.page.set_input_files("#ck-bar input[type=file]", str(again))
         other.wait()
         assert other.source("ex-dh-transform") == RIGHT
         names = other.page.evaluate(FILES)
@@ -216,7 +225,7 @@ def test_started_from_a_folder_it_says_what_is_missing(browser, run):
 def test_the_page_that_loads_says_how_far_it_is(browser, run, served):
     with Student(browser, served.url) as visit:
         said = []
-        visit.page.expose_function("heard", said.append)
+        visit.page.expose_function("heard", lambda text: said.append(text))  # Playwright takes no builtin
         visit.page.add_init_script(WATCH)
         visit.open("run/start.html?path=" + NAME)
         visit.page.wait_for_function("() => location.pathname.includes('/run/lab/')", timeout=300_000)
