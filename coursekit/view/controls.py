@@ -22,7 +22,8 @@ from numpy.typing import ArrayLike
 from coursekit.kinematics.robot import Robot
 
 STATIC = Path(__file__).parent / "static"
-SCRIPT = "\n".join((STATIC / f"{name}.js").read_text("utf-8") for name in ("html", "numbers", "controls"))
+SCRIPTS = ["html", "numbers", "controls"]
+SCRIPT = "\n".join((STATIC / f"{name}.js").read_text("utf-8") for name in SCRIPTS)
 _SHOWN_PER_SI = {"deg": 180 / np.pi, "mm": 1000.0}  # every other unit is shown as it is
 
 

@@ -29,13 +29,13 @@ from coursekit.view.picture import png
 from coursekit.view.scene import Scene
 
 STATIC = Path(__file__).parent / "static"
-_SCRIPTS = ["html", "bundle", "light", "stage", "actors", "player"]
-_SCRIPTS += ["kinematics", "follow", "handles", "viewer"]
+SCRIPTS = ["html", "bundle", "light", "stage", "actors", "player"]
+SCRIPTS += ["kinematics", "follow", "handles", "viewer"]
 
 
 def script() -> str:
     """The page's side of the viewer: one JavaScript module, joined from the files in `static/`."""
-    return "\n".join((STATIC / f"{name}.js").read_text(encoding="utf-8") for name in _SCRIPTS)
+    return "\n".join((STATIC / f"{name}.js").read_text(encoding="utf-8") for name in SCRIPTS)
 
 
 class Viewer(anywidget.AnyWidget):

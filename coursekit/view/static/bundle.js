@@ -49,8 +49,8 @@ const waysToEvaluate = [
       `(function (module, exports, define) {${source}\n;window.__coursekit_meshcat = module.exports;})({exports: {}}, {}, undefined)`;
     document.head.append(script);
     script.remove();
-    const result = window.__coursekit_meshcat;
-    delete window.__coursekit_meshcat;
+    const result = window["__coursekit_meshcat"];
+    delete window["__coursekit_meshcat"];
     return result;
   },
 ];

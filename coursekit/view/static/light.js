@@ -3,7 +3,9 @@
 // generator also blurs sharp ones: ten seconds without a GPU, for nothing.
 const SMOOTHEST = 0.25; // roughness: below, sharper faces would be read
 const BLURS = [0.069, 0.128, 0.217, 0.351, 0.447, 0.527, 0.583]; // radians, of the seven levels for more and more roughness
-const WALLS = [0.553, 0.573, 0.6], LAMPS = [ // brightness, centre, and two half sides
+const WALLS = [0.553, 0.573, 0.6];
+/** @type {[number, number[], number[], number[]][]} */
+const LAMPS = [ // brightness, centre, and two half sides
   [9, [0, 2.9, 0], [2.5, 0, 0], [0, 0, 2.5]],
   [5, [-4.9, 0.8, 1], [0, 1.3, 0], [0, 0, 2]],
   [3.5, [3, 1, 4.9], [2, 0, 0], [0, 1.2, 0]],

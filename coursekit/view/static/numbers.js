@@ -11,7 +11,7 @@ const SHAPE = new RegExp(`^([-+]?)(?:(${A_NUMBER})\\*?)?(pi)?(?:/(${A_NUMBER}))?
  * A typed number in the unit that is shown.
  * @param {string} typed such as "12.5", "12,5", "−20°", "pi/2", "0.4 m"
  * @param {string} unit the shown unit
- * @returns {{value: number} | {error: string}}
+ * @returns {{value?: number, error?: string}} one of the two
  */
 export function readNumber(typed, unit = "") {
   const example = { deg: "12.5, -90°, 0.3 rad or pi/2", mm: "12.5 or 0.4 m" }[unit] || "12.5";

@@ -79,7 +79,10 @@ function makePlayer({ show, report, wake }) {
     load(next, at = null) {
       motion = next && next.frames ? next : null;
       bar.hidden = !motion;
-      if (!motion) return (playing = false);
+      if (!motion) {
+        playing = false;
+        return;
+      }
       scrub.max = motion.frames - 1;
       speed.value = "1";
       loop.checked = !!motion.loop;

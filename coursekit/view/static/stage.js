@@ -26,7 +26,7 @@ function sharedRenderer(MeshCat) {
       shared.renderer = null; // it did not come back: start again with a new one
       try {
         sharedRenderer(MeshCat);
-      } catch (error) {
+      } catch {
         return;
       }
       redrawAll();
@@ -133,9 +133,10 @@ function canvasRenderer(MeshCat) {
 
 // meshcat's constructor adds window listeners, takes window.onload and would start an endless loop of frames.
 function quietViewer(MeshCat, pane, renderer) {
+  /** @type {[string, any][]} */
   const listeners = [];
   const { addEventListener, onload } = window;
-  window.addEventListener = function (...args) {
+  window.addEventListener = function (/** @type {[string, any]} */ ...args) {
     listeners.push(args);
     return addEventListener.apply(window, args);
   };

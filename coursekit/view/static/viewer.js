@@ -7,7 +7,7 @@ export default function () {
   let first = null; // the kernel's picture of the scene, which comes before any view
 
   // From the kernel: commands that are new or changed, and keys that are gone.
-  function update(model, content, buffers) {
+  function update(content, buffers) {
     if (content.type === "bundle") return receiveBundle(buffers[0]);
     if (content.type === "commands") {
       content.gone.forEach((key) => commands.delete(key));
@@ -22,7 +22,7 @@ export default function () {
   return {
     initialize({ model }) {
       for (const [key, data] of Object.entries(model.get("commands"))) commands.set(key, bytesOf(data));
-      model.on("msg:custom", (content, buffers) => update(model, content, buffers));
+      model.on("msg:custom", (content, buffers) => update(content, buffers));
       askForBundle(model);
       return () => {
         commands.clear();
@@ -52,7 +52,9 @@ export default function () {
       const unwatch = watchKernel(model, silence);
 
       // --- a motion: the player says which frame, whoever draws it
-      let draw = () => {}, wake = animate;
+      /** @type {(k: number) => void} */
+      let draw = () => {};
+      let wake = animate;
       const player = makePlayer({
         wake: () => wake(),
         show(k) {
