@@ -107,6 +107,8 @@ EXERCISES = [
             Hint(
                 "back", "you moved the axes back instead of forth: check for an inverse, or a minus on theta"
             ),
+            Hint("one_before", "all joints before it carry axis i, not joint i - 1 alone: multiply them up"),
+            Hint("no_theta", "e^[S] turns by 1 rad whatever the joint does: theta_i is missing"),
             Hint("one_short", "your product stops one joint early: axis i is moved by joint i - 1, too"),
         ),
     ),

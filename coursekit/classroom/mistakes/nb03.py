@@ -158,6 +158,19 @@ def all_with_axis_1_up(T_sd, lengths, tool):
     return right.all_solutions(T_sd, lengths, tool) * [-1, 1, 1, 1, 1, 1]
 
 
+def all_turned_up(T_sd, lengths, tool):
+    rows = right.all_solutions(T_sd, lengths, tool)
+    for row in rows:  # what is left for the wrist, with axis 1 taken to point up
+        R_123 = rotations.rotz(row[0]) @ rotations.roty(row[1] + row[2])
+        row[3:] = right.wrist_angles(R_123.T @ T_sd[:3, :3])[int(row[4] < 0)]
+    return rows
+
+
+def all_not_undone(T_sd, lengths, tool):
+    t1, r = _reach(T_sd, tool)
+    return _joined(T_sd, lengths, tool, [(t1, r), (t1 + np.pi, -r)], lambda R_123, R_sd: R_123 @ R_sd)
+
+
 def all_with_the_same_r(T_sd, lengths, tool):
     t1, r = _reach(T_sd, tool)
     return _joined(T_sd, lengths, tool, [(t1, r), (t1 + np.pi, r)])
@@ -340,6 +353,8 @@ WRONG = {
     "all_solutions": {
         "front_only": all_to_the_front,
         "axis_1": all_with_axis_1_up,
+        "turned_up": all_turned_up,
+        "not_undone": all_not_undone,
         "same_r": all_with_the_same_r,
         "no_flip": all_without_flip,
         "duplicates": all_with_duplicates,

@@ -43,6 +43,15 @@ def space_moved_back(S, theta):
     return _moved(S, [lie.inverse(T) for T in _before(S, theta)])
 
 
+def space_by_the_joint_before(S, theta):
+    before = [lie.exp6(s * angle) for s, angle in zip(S.T[:-1], theta[:-1], strict=True)]
+    return _moved(S, [np.eye(4), *before])
+
+
+def space_without_theta(S, theta):
+    return right.jacobian_space(S, np.ones(len(theta)))
+
+
 def space_one_short(S, theta):
     return _moved(S, [np.eye(4), *_before(S, theta)[:-1]])
 
@@ -228,6 +237,8 @@ WRONG = {
         "later_joints": space_moved_by_later_joints,
         "reversed": space_reversed,
         "back": space_moved_back,
+        "one_before": space_by_the_joint_before,
+        "no_theta": space_without_theta,
         "one_short": space_one_short,
     },
     "jacobian_geometric": {

@@ -33,6 +33,16 @@ def _first_column(rng):
     }
 
 
+def _second_column(rng):
+    a, b = rng.choice([-150, -120, -60, -30, 30, 60, 120, 150]), rng.choice([30, 60, 90])
+    s = np.sin(np.radians(b))
+    return {
+        "R12": round(float(-s * np.cos(np.radians(a))), 4),
+        "R22": round(float(np.cos(np.radians(b))), 4) + 0.0,
+        "R32": round(float(s * np.sin(np.radians(a))), 4),
+    }
+
+
 def _atan2(y, x):
     return float(np.degrees(np.arctan2(y, x)))
 
@@ -97,6 +107,21 @@ QUESTIONS = [
                 -R31, -R21
             ),
             "Only one of the two entries lost its minus sign.": lambda R11, R21, R31: _atan2(R21, -R31),
+        },
+        tolerance=0.2,
+    ),
+    Question(
+        name="yzy_wrist",
+        draw=_second_column,
+        text="A wrist turns about y, z and y: R = Ry(a) Rz(b) Ry(c). It has R12 = {R12}, R22 = {R22} and "
+        "R32 = {R32}. The angle a in degrees, for the solution with b > 0?",
+        answer=lambda R12, R22, R32: _atan2(R32, -R12),
+        slips={
+            "Multiply Ry(a) with (-sin b, cos b, 0): R12 has a minus, R32 has none.": lambda R12, R22, R32: (
+                _atan2(R32, R12)
+            ),
+            "That is the flipped solution, with b < 0.": lambda R12, R22, R32: _atan2(-R32, R12),
+            "The sine comes first in atan2, and R32 holds the sine.": lambda R12, R22, R32: _atan2(-R12, R32),
         },
         tolerance=0.2,
     ),
@@ -189,6 +214,7 @@ GOALS = {
         "triangle_by_hand",
         "wrist_by_hand",
         "other_wrist",
+        "yzy_wrist",
         "elbow_solutions",
         "wrist_angles",
     ],
