@@ -158,8 +158,13 @@ class Panel(ipywidgets.VBox):
     def set(self, **values: Any) -> None:
         """Set controls from the program: one update for all of them, exactly these values.
 
-        `panel.set(theta=[0, 0, 0, 0, 0, 0], tool=False)`
+        `panel.set(theta=[0, 0, 0, 0, 0, 0], tool=False)`. ValueError for a control that it does not have, for
+        a value that a control refuses, and where the panel is closed.
         """
+        if self.scene is None:
+            raise ValueError(
+                f"panel {self.name!r} is closed, by close() or by one of the same name opened after it"
+            )
         for name in values:
             if name not in self._controls:
                 known = ", ".join(self._controls)

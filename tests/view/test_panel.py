@@ -266,6 +266,13 @@ def test_mistakes_are_named(call, message):
         call()
 
 
+def test_a_panel_that_another_replaced_says_so(made):
+    first = made(small_panel())
+    made(small_panel())
+    with pytest.raises(ValueError, match=r"is closed, by close\(\) or by one of the same name"):
+        first.set(on=True)
+
+
 def test_values_are_read_once_a_change(made, monkeypatch):
     panel, read = made(small_panel()), []
     original = Sliders.get
