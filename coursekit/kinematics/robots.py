@@ -1,4 +1,4 @@
-"""The data sheets: eleven robots with every form that their sources allow, and where each number comes from.
+"""The data sheets: each robot with every form that their sources allow, and where each number comes from.
 
 Screws are read off the drawing (a direction and a point per axis); DH tables are the published ones. That
 both describe the same arm is not assumed here: the tests compare them. Lengths are written in millimetres and

@@ -8,7 +8,7 @@ import pytest
 
 FOLDER = Path(__file__).resolve().parents[1] / "golden"
 
-# The golden data call the robots by their full type names.
+# The golden data call the robots by their full type names. A robot that stands here is tested against them.
 GOLDEN_ROBOTS = {
     "kuka_kr6_r900_sixx": "kuka_kr6",
     "abb_irb1200_5_90": "abb_irb1200",
@@ -22,7 +22,7 @@ GOLDEN_ROBOTS = {
     "adept_cobra600": "scara",
     "stanford_arm": "stanford",
 }
-# those with as many hinges as a pose has numbers
+# those with six hinges and a closed form; others with golden data are excepted by name
 SIX_HINGES = {
     full: name
     for full, name in GOLDEN_ROBOTS.items()

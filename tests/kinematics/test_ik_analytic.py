@@ -221,13 +221,22 @@ def test_wrist_on_axis_1_takes_theta_1_zero():
     assert np.allclose(ik.wrist_centre(robot, robot.fk(whole)), p, atol=1e-12)
 
 
-@pytest.mark.parametrize("name", SIX.values())
+# theta_3 that stretches the arm out, read off its drawing
+STRETCHED = {
+    "kuka_kr6": np.arctan2(35, 420),
+    "kuka_kr10": np.arctan2(25, 515),
+    "kuka_kr10_report": 0.0,
+    "abb_irb1200": -np.arctan2(451, 42),
+    "kawasaki_s030": np.pi / 2,
+    "puma560": np.arctan2(-431.8, 20.3),
+    "ur5": 0.0,
+}
+
+
+@pytest.mark.parametrize("name", STRETCHED)
 def test_end_of_the_reach_has_its_double_solution(name):
     robot = ALL[name]
-    stretched = {"kuka_kr6": np.arctan2(35, 420), "kuka_kr10": np.arctan2(25, 515), "kuka_kr10_report": 0.0}
-    stretched |= {"abb_irb1200": -np.arctan2(451, 42), "kawasaki_s030": np.pi / 2, "ur5": 0.0}
-    stretched |= {"puma560": np.arctan2(-431.8, 20.3)}
-    theta = np.array([0.4, -0.7, stretched[name], 0.9, 1.2, -0.3])
+    theta = np.array([0.4, -0.7, STRETCHED[name], 0.9, 1.2, -0.3])
     T = robot.fk(theta)
     solutions = ik.analytic(robot, T)
     near = turned_apart(solutions.theta, theta) < 1e-6

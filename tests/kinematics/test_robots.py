@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from coursekit import lie, robots
-from tests.kinematics.conftest import GOLDEN_ROBOTS, SIX_HINGES, load
+from tests.kinematics.conftest import FOLDER, GOLDEN_ROBOTS, SIX_HINGES, load
 
 ALL = robots.all()
 AXES_ONLY = {"kuka_kr10_report"}  # robots whose source gives no DH table: theirs is made from the axes
@@ -35,6 +35,22 @@ def test_a_robot_is_made_when_it_is_asked_for(monkeypatch):
 
 
 # -- golden data --
+
+
+@every_golden_robot
+def test_golden_data_are_complete(golden_name, golden):
+    """What a line in GOLDEN_ROBOTS asks for. Where this fails, other tests end in a KeyError."""
+    files = [f"fk_jac_{golden_name}"] + [f"ik_{golden_name}"] * (golden_name in SIX_HINGES)
+    missing = [f"{name}.json" for name in files if not (FOLDER / f"{name}.json").exists()]
+    if golden_name not in golden("robots")["robots"]:
+        missing.append(f"robots.json: robots, {golden_name}")
+    if golden_name in SIX_HINGES:
+        singular = golden("singular")
+        if golden_name not in singular["det_formula"]:
+            missing.append(f"singular.json: det_formula, {golden_name}")
+        if not any(case["robot"] == golden_name for case in singular["cases"]):
+            missing.append(f"singular.json: cases of {golden_name}")
+    assert not missing, f"tests/golden has no {'; no '.join(missing)}: see CONTRIBUTING, A robot"
 
 
 @every_golden_robot
