@@ -1,14 +1,16 @@
 """Single edits of every reference solution, and those that still pass on the public samples: the survivors.
 
-    python -m tests.classroom.mutations nb01 nb02        # lists what survives without a reason
+    python -m tests.classroom.mutations nb01 nb02        # lists what survives without a reason, and where
 
-A survivor is either equivalent to the solution, and `survivors/nb01.json` says why, or it is a wrong function
-that `check` would accept, and the exercise needs an edge.
+A survivor is either equivalent to the solution, and `survivors/nb01.json` says why, under the exercise and
+the words before the parenthesis, or it is a wrong function that `check` would accept, and the exercise needs
+an edge.
 """
 
 from __future__ import annotations
 
 import ast
+import inspect
 import json
 import sys
 from pathlib import Path
@@ -28,23 +30,34 @@ HARMLESS = {"copy", "whole_numbers", "in_place", "negative_root", "somewhere"}
 DEEPEST = 1  # rank of the edits: what stands there is replaced, or gets a sign, is transposed or inverted
 
 
-def survivors(course: Course, unit: str, exercise: Exercise) -> list[str]:
-    """ "what stands there | kind of the edit", for every edit that passes on all public samples."""
+def survivors(course: Course, unit: str, exercise: Exercise) -> dict[str, str]:
+    """{"what stands there | kind of the edit": in which lines}: every edit that passes on all public samples.
+
+    Lines are told by their text and their number, counted from the `def`.
+    """
     examples = examples_of(exercise, course.samples(unit)[exercise.name])
     solution = getattr(tables.solutions(course, unit), exercise.name)
     search = _Search(exercise, solution, examples, 10**9)
-    found = []
+    lines = inspect.getsource(solution).splitlines()
+
+    def where(hit):
+        number = hit.line - search.first
+        return f"line {number + 1}: {lines[number].strip()}"
+
+    found: dict[str, list[str]] = {}
     with np.errstate(all="ignore"):
         for place in list(places.places(search.tree)):
             here = ast.unparse(place.node)
             variants = [v for v in place.variants if v.rank <= DEEPEST and v.kind not in HARMLESS]
             hits = [hit for hit in search._try([place], variants, 0, place.node.lineno) if hit]
-            found += [f"{here} | {hit.kind}" for hit in hits]
+            for hit in hits:
+                found.setdefault(f"{here} | {hit.kind}", []).append(where(hit))
         for edits in (line_edits, name_edits):
             for hit in search._edited(edits):
                 if hit and hit.kind not in HARMLESS:
-                    found.append(f"{_line(search.tree, hit.line)} | {hit.kind} {hit.what}".strip())
-    return list(dict.fromkeys(found))
+                    text = f"{_line(search.tree, hit.line)} | {hit.kind} {hit.what}".strip()
+                    found.setdefault(text, []).append(where(hit))
+    return {text: "; ".join(dict.fromkeys(lines_of)) for text, lines_of in found.items()}
 
 
 def _line(tree: ast.FunctionDef, line: int) -> str:
@@ -64,6 +77,6 @@ if __name__ == "__main__":
     for unit in sys.argv[1:] or course.units:
         for exercise in course.exercises(unit):
             known = reasons(unit).get(exercise.name, {})
-            for survivor in survivors(course, unit, exercise):
+            for survivor, where in survivors(course, unit, exercise).items():
                 if survivor not in known:
-                    print(f"{unit} {exercise.name}: {survivor}")
+                    print(f"{unit} {exercise.name}: {survivor} ({where})")

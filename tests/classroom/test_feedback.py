@@ -152,4 +152,12 @@ def test_every_edit_of_the_solution_is_noticed_or_equivalent(unit, exercise):
     """A survivor without a reason is a wrong function that `check` accepts; a reason without one is stale."""
     known = reasons(unit).get(exercise.name, {})
     assert all(known.values()), "a reason is a sentence"
-    assert set(survivors(COURSE, unit, exercise)) == set(known)
+    found = survivors(COURSE, unit, exercise)
+    accepted = "\n".join(f"  {text} ({where})" for text, where in found.items() if text not in known)
+    assert not accepted, (
+        f"`check` accepts {exercise.name} with one of these edits:\n{accepted}\n"
+        f"If an edit changes nothing, survivors/{unit}.json says why, under {exercise.name}: the words before"
+        " the parenthesis, and a reason. If it is wrong, the exercise needs an edge that finds it out."
+    )
+    stale = sorted(set(known) - set(found))
+    assert not stale, f"reasons in survivors/{unit}.json for edits that no longer survive"
