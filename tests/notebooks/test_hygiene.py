@@ -174,11 +174,12 @@ def test_cells_words_and_lines(cells):
     lengths = [len(lines_of(cell)) for cell in code(cells)]
     core = [cell for cell in prose(cells) if "further" not in notebook.tags(cell)]
     words = sum(len(words_of(cell["source"])) for cell in core)
-    assert 25 <= len(cells) <= 70
-    assert 900 <= words <= 2200
-    assert sum(lengths) <= 350
-    assert median(lengths) <= 6
-    assert max(lengths) <= 25
+    assert 25 <= len(cells) <= 70, "cells"
+    assert 900 <= words <= 2200, "words of the core path"
+    assert sum(lengths) <= 350, "lines of code"
+    assert median(lengths) <= 6, "lines of code in a cell, as a rule"
+    longest = max(code(cells), key=lambda cell: len(lines_of(cell)))
+    assert max(lengths) <= 25, f"lines of code in {longest['id']}"
 
 
 def test_headings_are_in_order(cells):
@@ -220,11 +221,17 @@ def test_details_are_closed(cells):
 def test_exercises_and_their_checks(cells):
     solutions = [cell for cell in cells if notebook.is_solution(cell)]
     checks = [cell for cell in cells if notebook.is_check(cell)]
-    assert 4 <= len(solutions) <= 9
+    assert 4 <= len(solutions) <= 9, "exercises of a notebook: one more may have to take the place of another"
     names = [cell["metadata"]["nbgrader"]["grade_id"] for cell in solutions]
     assert [cell["metadata"]["nbgrader"]["grade_id"] for cell in checks] == [f"check-{n}" for n in names]
     for cell, name in zip(checks, names, strict=True):
         assert "".join(printed(cell)).startswith(f"✓ {name}: right on"), cell["id"]
+
+
+def test_the_readme_says_how_many_exercises_there_are(path, cells):
+    readme = (FOLDER.parent / "README.md").read_text(encoding="utf-8")
+    (said,) = re.findall(rf"^\|.*\(notebooks/{path.name}\).*\| (\d+) \|$", readme, flags=re.M)
+    assert int(said) == sum(map(notebook.is_solution, cells)), "the last column of README.md's table"
 
 
 def test_one_set_up_cell_one_bug_hunt_one_table_of_results(cells):
