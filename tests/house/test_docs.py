@@ -97,6 +97,10 @@ def test_readme_has_each_command_for_both_systems(ending):
     assert windows == f'cmd /c "{translated}"'  # PowerShell knows no "&&"
 
 
+def test_readme_can_be_read_in_a_few_minutes():
+    assert len(README.split()) <= 1500, "words in README.md: what not everybody needs belongs into .github"
+
+
 def test_readme_links_lead_somewhere():
     targets = re.findall(r"\]\(([^)#\s]+)", README) + re.findall(r'(?:src|href)="([^"#]+)"', README)
     inside = [target for target in targets if not re.match(r"[a-z]+:", target)]
