@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 from coursekit.kinematics.robot import Robot
 
 STATIC = Path(__file__).parent / "static"
-SCRIPTS = ["html", "numbers", "controls"]
+SCRIPTS = ["html", "numbers", "parts", "controls"]
 SCRIPT = "\n".join((STATIC / f"{name}.js").read_text("utf-8") for name in SCRIPTS)
 _SHOWN_PER_SI = {"deg": 180 / np.pi, "mm": 1000.0}  # every other unit is shown as it is
 
@@ -34,6 +34,7 @@ class Control(anywidget.AnyWidget):
     _css = STATIC / "controls.css"
     kind = traitlets.Unicode().tag(sync=True)
     label = traitlets.Unicode().tag(sync=True)
+    word = traitlets.Unicode().tag(sync=True)  # by which the picture knows what it means, see pointing.py
     touched = traitlets.Int(0).tag(sync=True)  # counts changes by a person
     kind_name: str
     value: Any
@@ -41,7 +42,8 @@ class Control(anywidget.AnyWidget):
 
     def __init__(self, name: str, label: str | None = None, **traits: Any) -> None:
         self.name = name
-        super().__init__(kind=type(self).kind_name, label=name if label is None else label, **traits)
+        names = {"kind": type(self).kind_name, "label": name if label is None else label, "word": name}
+        super().__init__(**names, **traits)
 
     def get(self) -> Any:
         """The value as an explorer's functions see it."""
@@ -354,6 +356,7 @@ class Table(Control):
     """A table of text below the picture; with `selectable` a row can be chosen, and its index is the value.
 
     `fill(values)` returns (header, rows): lists of text; format numbers by `coursekit.view.text`.
+    `draw(values)` gives a small figure for each row, to choose by.
     """
 
     kind_name = "table"
@@ -361,6 +364,7 @@ class Table(Control):
     header: traitlets.List = traitlets.List().tag(sync=True)
     rows: traitlets.List = traitlets.List().tag(sync=True)
     selectable = traitlets.Bool(False).tag(sync=True)
+    figures: traitlets.List = traitlets.List().tag(sync=True)  # {"lines", "name", "note", "word"} of each row
 
     def __init__(
         self,
@@ -369,8 +373,9 @@ class Table(Control):
         label: str | None = None,
         selectable: bool = False,
         start: int = -1,
+        draw: Callable[[dict], list[dict]] | None = None,
     ) -> None:
-        self.fill = fill
+        self.fill, self.draw = fill, draw
         self.initial = start
         super().__init__(name, label, selectable=selectable, value=start)
 
@@ -379,6 +384,7 @@ class Table(Control):
         with self.hold_sync():
             self.header = [str(cell) for cell in header]
             self.rows = [[str(cell) for cell in row] for row in rows]
+            self.figures = self.draw(values) if self.draw else []
 
     def __repr__(self) -> str:
         return f"Table({self.name}: {len(self.rows)} rows)"

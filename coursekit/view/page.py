@@ -9,8 +9,19 @@ from coursekit.view.panel import Panel
 from coursekit.view.viewer import STATIC, Viewer, script
 
 _PAGE = (STATIC / "page.html").read_text(encoding="utf-8")
-_OF_A_SLIDER = ("label", "unit", "value", "min", "max", "step", "start", "limits", "digits", "wide")
-_OF_A_VIEWER = ("labels", "ghosts", "moving", "camera", "views", "description", "quality", "height", "drive")
+_OF_A_SLIDER = ("label", "word", "unit", "value", "min", "max", "step", "start", "limits", "digits", "wide")
+_OF_A_VIEWER = (
+    "labels",
+    "ghosts",
+    "moving",
+    "camera",
+    "views",
+    "description",
+    "quality",
+    "height",
+    "drive",
+    "pointers",
+)
 _AND_ITS_MOTION = ("theta", "motion", "motion_texts", "frame")
 
 

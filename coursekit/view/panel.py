@@ -36,6 +36,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.view import cells, layout
 from coursekit.view import controls as parts
+from coursekit.view.pointing import Formula
 from coursekit.view.scene import Arm, Scene
 from coursekit.view.target import PoseSliders
 from coursekit.view.viewer import Viewer, mimebundle
@@ -80,6 +81,8 @@ class Panel(ipywidgets.VBox):
         answers. By default those of a control called "theta", where there is one for each joint.
     computed : list of str
         Paths of what `update` alone can place for another theta: a page without a kernel hides it.
+    formula : Formula, optional
+        Between picture and text; its parts show in the picture what they mean.
     """
 
     def __init__(
@@ -95,6 +98,7 @@ class Panel(ipywidgets.VBox):
         quality: str = "auto",
         drivers: Callable[[dict], Sequence[parts.Slider | None]] | None = None,
         computed: Sequence[str] = (),
+        formula: Formula | None = None,
     ) -> None:
         self.name = name
         self.title = name if title is None else title
@@ -128,8 +132,9 @@ class Panel(ipywidgets.VBox):
         self._reset_button = parts.Action("reset", act=self.reset)
         column = layout.column(controls, self._reset_button) if controls else None
         top = layout.beside(column, self.viewer)
-        self.children = [top, self.line, *layout.under(self.below)]
-        for output in self.below:
+        self.formula = [formula] if formula else []
+        self.children = [top, *self.formula, self.line, *layout.under(self.below)]
+        for output in (*self.formula, *self.below):
             if hasattr(output, "has_time"):
                 self._stale.append(output)  # a plot takes longer than all the rest
             elif hasattr(output, "refresh"):
@@ -200,7 +205,7 @@ class Panel(ipywidgets.VBox):
                 self.viewer.driven_by(self._drivers(values))
                 self.viewer.sync(self.scene, self.motion.frame if self.motion else None)
                 self.line.value = self._words(values)
-                for output in self.below:
+                for output in (*self.formula, *self.below):
                     if live and hasattr(output, "has_time") and not output.has_time():
                         if output not in self._stale:
                             self._stale.append(output)
@@ -265,7 +270,7 @@ class Panel(ipywidgets.VBox):
         # The notebook's Out[...] keeps the panel for ever: what it drew must not stay with it.
         if hasattr(self, "viewer"):  # a panel that was refused half-way has none
             self.viewer.forget()
-        self.below, self._controls, self._stale, self.motion = [], {}, [], None
+        self.below, self.formula, self._controls, self._stale, self.motion = [], [], {}, [], None
         self.scene = None  # type: ignore[assignment]  # closed: nothing may use it any more
         self.children = []
         self._update = self._text = None

@@ -49,7 +49,7 @@ def png(scene: Scene, width: int = 720, height: int = 440, view: str = "home") -
     solid = [thing for thing in things if thing[1].opacity == 1]
     canvas = _ground(scene, eye, [mesh for mesh, part in solid if part.casts])
     nothing_near = np.zeros(len(canvas))
-    for ghost in scene.ghosts:
+    for ghost in (ghost for ghost in scene.ghosts if ghost["shown"]):
         _paint(canvas, nothing_near, eye, list(_copies(scene, ghost)), ghost["opacity"])
     near = _paint(canvas, nothing_near, eye, solid)
     for thing in things:

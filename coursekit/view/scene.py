@@ -9,6 +9,7 @@ link's path is given where it stands at theta = 0, in the space frame, and moves
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -79,21 +80,24 @@ class Arm(Drawing):
             self.scene.shown[f"{self.path}/{k}/solid"] = bool(solid)
             self.scene.shown[f"{self.path}/{k}/skeleton"] = bool(skeleton)
 
+    def axes(self, name: str, label: str, **look: Any) -> list[Drawing]:
+        """Draw the screw axes, each below its link's path as `name`; `look` as of `Scene.screw_axis`."""
+        drawn = []
+        for k, (S, joint) in enumerate(zip(self.robot.S.T, chain(self.robot).joints, strict=True), 1):
+            out, way = 2.5 * joint.radius * joint.along, S[:3] if np.any(S[:3]) else S[3:]
+            ends = joint.enter - (k > 1) * out, joint.leave + out  # the first begins at the floor
+            start, end = ends if way @ joint.along > 0 else ends[::-1]
+            place: dict = {"label": f"{label}{k}", "at": start, "length": (end - start) @ way}
+            drawn.append(self.scene.screw_axis(f"{self.link(k)}/{name}", S, **place, **look))
+        return drawn
+
     def show_axes(self, shown: bool = True) -> None:
         """Show or hide the screw axes at the links, labelled S1 to Sn."""
-        robot, scene = self.robot, self.scene
-        paths = [f"{self.link(k)}/axis" for k in range(1, robot.n + 1)]
-        if shown and paths[0] not in scene.parts:
-            for path, S, joint in zip(paths, robot.S.T, chain(robot).joints, strict=True):
-                out, way = 2.5 * joint.radius * joint.along, S[:3] if np.any(S[:3]) else S[3:]
-                low = joint.enter if path == paths[0] else joint.enter - out  # the first begins at the floor
-                ends = low, joint.leave + out
-                start, end = ends if way @ joint.along > 0 else ends[::-1]
-                scene.screw_axis(
-                    path, S, label="S" + path.split("/")[-2], at=start, length=(end - start) @ way
-                )
+        paths = [f"{self.link(k)}/axis" for k in range(1, self.robot.n + 1)]
+        if shown and paths[0] not in self.scene.parts:
+            self.axes("axis", "S")
         for path in paths:
-            scene.shown[path] = bool(shown)
+            self.scene.shown[path] = bool(shown)
 
 
 class Scene:
@@ -124,7 +128,8 @@ class Scene:
         self.moved: dict[str, np.ndarray] = {}  # by `move`: path -> T in the space frame
         self.shown: dict[str, bool] = {}
         self.said: list[str] = []  # what `text` adds
-        self._labels: dict[str, list[dict]] = {}
+        self.pointers: dict[str, tuple[str, ...]] = {}  # path -> words of a formula, see pointing.py
+        self.lettering: dict[str, list[dict]] = {}
         self._low, self._high = np.array([-0.4, -0.4, 0]) * size, np.array([0.4, 0.4, 0.8]) * size
         self.size, self.floor = float(size), float(floor)
 
@@ -166,17 +171,12 @@ class Scene:
 
     @property
     def ghosts(self) -> list[dict]:
-        """Copies of src/k/solid at path/k/ghost, k = 1..n: {"src", "path", "n", "color", "opacity"}."""
+        """Copies of src/k/solid at path/k/ghost, k = 1..n; one not shown is there for who points at it."""
+        arms = [a for a in self.robots.values() if a.style == "ghost"]
+        looks = [{"color": color(a.color), "opacity": 0.3, "shown": self.visible(a.path)} for a in arms]
         return [
-            {
-                "src": f"/ck/{a.source}",
-                "path": a.path,
-                "n": a.robot.n,
-                "color": color(a.color),
-                "opacity": 0.3,
-            }
-            for a in self.robots.values()
-            if a.style == "ghost"
+            {"src": f"/ck/{a.source}", "path": a.path, "n": a.robot.n, **look}
+            for a, look in zip(arms, looks, strict=True)
         ]
 
     @property
@@ -226,13 +226,14 @@ class Scene:
         at: ArrayLike | None = None,
         length: float | None = None,
         color: str | int = "axis",
+        radius: float | None = None,
     ) -> Drawing:
         """The line of a space screw S (6,) as an arrow, with an arc for the sense of turning, theta rad long.
 
         `at` is a point (3,) near which it is drawn; a screw that only slides goes through it and has no arc.
         """
-        length = 0.3 * self.size if length is None else length
-        return self._draw(path, *draw.screw_axis(S, theta, label, at, length, 0.005 * self.size, color))
+        length, radius = 0.3 * self.size if length is None else length, radius or 0.005 * self.size
+        return self._draw(path, *draw.screw_axis(S, theta, label, at, length, radius, color))
 
     def arrow(
         self,
@@ -328,7 +329,7 @@ class Scene:
         gone = [self.robots.pop(name) for name in list(self.robots) if _below(f"/ck/{name}", path)]
         for ghost in [a for a in self.robots.values() if a.source in [g.name for g in gone]]:
             ghost.remove()
-        tables: list[dict] = [self.parts, self._labels, self.placed, self.moved, self.shown]
+        tables: list[dict] = [self.parts, self.lettering, self.placed, self.moved, self.shown, self.pointers]
         for table in tables:
             for key in [key for key in table if _below(key, path)]:
                 del table[key]
@@ -337,7 +338,9 @@ class Scene:
     def labels(self) -> list[dict]:
         """Texts that are shown, facing the reader: {"path", "pos" (in the frame of path), "text", "cls"}."""
         on_stage = [{"path": "/ck/stage", **tick} for tick in stage.ticks(self.size, self.floor)]
-        lettered = [(path, labels) for path, labels in self._labels.items() if labels and self.visible(path)]
+        lettered = [
+            (path, labels) for path, labels in self.lettering.items() if labels and self.visible(path)
+        ]
         return [*on_stage, *({"path": path, **label} for path, labels in lettered for label in labels)]
 
     # --- looking at it ---
@@ -371,7 +374,9 @@ class Scene:
                 joints, tool = text.joints(one.robot.joint_types, one.theta), one.robot.fk(one.theta)[:3, 3]
                 who = one.robot.name + ("" if name == "robot" else f" ({name})")
                 lines.append(f"{who}: joints {joints}; tool at {text.millimetres(tool)}")
-        ghosts = sum(one.style == "ghost" and one.links is None for one in self.robots.values())
+        ghosts = sum(
+            a.style == "ghost" and a.links is None and self.visible(a.path) for a in self.robots.values()
+        )
         if ghosts:
             lines.append(f"{ghosts} translucent arm" + ("s" if ghosts > 1 else ""))
         return "; ".join([*lines, *self.said]) or "an empty scene"
@@ -381,7 +386,7 @@ class Scene:
     def _draw(self, path, parts, labels=()):
         if not path.startswith("/ck/"):
             raise ValueError(f'a path starts with "/ck/", got {path!r}')
-        self.parts[path], self._labels[path] = list(parts), list(labels)
+        self.parts[path], self.lettering[path] = list(parts), list(labels)
         return Drawing(self, path)
 
     def _fit(self, robot, theta, painted):

@@ -22,7 +22,7 @@ import numpy as np
 import traitlets
 from numpy.typing import ArrayLike
 
-from coursekit.view import meshcat
+from coursekit.view import meshcat, pointing
 from coursekit.view.controls import Slider
 from coursekit.view.meshcat import column_major
 from coursekit.view.picture import png
@@ -30,7 +30,7 @@ from coursekit.view.scene import Scene
 
 STATIC = Path(__file__).parent / "static"
 SCRIPTS = ["html", "bundle", "light", "stage", "actors", "player"]
-SCRIPTS += ["kinematics", "follow", "handles", "viewer"]
+SCRIPTS += ["kinematics", "follow", "handles", "point", "viewer"]
 
 
 def script() -> str:
@@ -65,6 +65,7 @@ class Viewer(anywidget.AnyWidget):
     pose = traitlets.Bytes().tag(sync=True)
     camera = traitlets.Dict().tag(sync=True)
     views = traitlets.Dict().tag(sync=True)
+    pointers = traitlets.Dict().tag(sync=True)  # word -> paths that show what it means
     description = traitlets.Unicode().tag(sync=True)
     motion = traitlets.Dict().tag(sync=True)
     motion_poses = traitlets.Bytes().tag(sync=True)
@@ -237,7 +238,8 @@ class Viewer(anywidget.AnyWidget):
 
     def _state(self, scene):
         return {
-            "labels": [dict(label) for label in scene.labels],
+            "labels": [dict(label) for label in (*scene.labels, *pointing.labels(scene))],
+            "pointers": pointing.words(scene),
             "ghosts": [dict(ghost) for ghost in scene.ghosts],
             "moving": list(scene.moving),
             "pose": column_major(scene.pose()) if len(scene.moving) else b"",

@@ -124,6 +124,7 @@ def test_ghosts_stand_at_their_solutions_whatever_is_drawn_anew(notebook, lab):
     notebook.wait_view()
     notebook.page.get_by_label("Newton's way").check()
     notebook.settle()
+    notebook.page.get_by_text("Newton's guess").click()
     notebook.page.get_by_role("slider", name="guess θ1").press("PageUp")
     notebook.settle()
     pose = notebook.kernel("panel.values['pose'].tolist()")

@@ -61,6 +61,8 @@ def opened():
 
     yield run
     for panel in panels:
+        (formula,) = panel.formula
+        assert set(formula.says) <= set(panel.viewer.pointers), "every part of the formula shows something"
         panel.close()
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
-from coursekit.view import mine, sketch
+from coursekit.view import mine, pointing, sketch
 from coursekit.view.controls import Control, JointSliders, Slider, Sliders
 from coursekit.view.panel import Panel
 from coursekit.view.scene import Scene
@@ -67,6 +67,10 @@ class Explorer:
         """The numbers of the picture, for everyone."""
         raise NotImplementedError
 
+    def formula(self, values: dict[str, Any]) -> pointing.Lines:
+        """The formula that the picture is about: its parts show there what they mean."""
+        return []
+
     def yours(self, name: str, values: dict[str, Any]) -> str:
         """Draw what the student's function of this name says for these values; the words for it.
 
@@ -112,5 +116,6 @@ class Explorer:
             height,
             drivers=self.drivers,
             computed=[*self.computed, *([sketch.ROOT] if self.mine.functions else [])],
+            formula=pointing.Formula(self.formula),
         )
         return self.panel

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import dh, lie, robots
 from coursekit.kinematics.robot import Robot
+from coursekit.view import pointing, text
 from coursekit.view.controls import Choice, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer
 from coursekit.view.panel import Panel
@@ -70,6 +71,8 @@ class _Conventions(Explorer):
         scene.remove(ROOT)
         self.arm = scene.robot(robot)
         scene.frame(self.arm.link(robot.n) + "/tool", robot.M, letter="tool")
+        pointing.axes(scene, self.arm)
+        pointing.mean(scene.frame("/ck/zero", robot.M, letter="M"), "M")
         self.frames = {}
         for name, table in _tables(robot).items():
             poses = [table.base, *table.frames(np.zeros(robot.n))]
@@ -77,6 +80,9 @@ class _Conventions(Explorer):
                 scene.frame(f"{self.arm.link(k)}/{name}", T, letter=f"{name[0]}{k}", size=0.1 * scene.size)
                 for k, T in enumerate(poses)
             ]
+            for k, frame in enumerate(self.frames[name]):  # between two rows
+                pointing.mean(frame, f"{name}{k}", f"{name}{k + 1}")
+            pointing.rows(scene, self.arm, name, table, poses)
         self.far = list(_far_frames(robot, scene.size))
         self.joints.fit(robot)
 
@@ -107,6 +113,30 @@ class _Conventions(Explorer):
         apart = float(np.max(matrices.max(axis=0) - matrices.min(axis=0)))
         agree = f"largest difference between any two matrix entries: {apart:.1e}"
         return "\n".join([*lines, agree, *self.far])
+
+    def formula(self, values):
+        """The product of exponentials, and each table as a product of its rows."""
+        theta, joints = values["theta"], range(1, self.robot.n + 1)
+        product: list[pointing.Piece] = ["T = "]
+        for k, S in zip(joints, self.robot.S.T, strict=True):
+            says = f"joint {k}: S{k} = {text.row(S)} at zero, theta{k} = {self.shown(k, theta)}"
+            product.append(
+                (pointing.numbered("e^[S", k) + "]" + pointing.numbered("θ", k), f"theta{k}", says)
+            )
+        product.append(("M", "M", f"the tool at zero: {text.pose(self.robot.M)}"))
+        lines = [product]
+        for name, table in _tables(self.robot).items():
+            rows = [
+                (pointing.numbered("A", k), f"{name}{k}", pointing.row_says(table, k, theta[k - 1], name))
+                for k in joints
+            ]
+            lines.append([f"{name} DH:  T = ", *rows])
+        return lines
+
+    def shown(self, k, theta):
+        """Joint value k with its unit."""
+        turns = self.robot.joint_types[k - 1] == "revolute"
+        return (text.degrees if turns else text.millimetres)(theta[k - 1])
 
     # -- the arm by the student's functions
 

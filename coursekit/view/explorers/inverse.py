@@ -7,17 +7,18 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import ik, robots
 from coursekit.kinematics.robot import Robot
-from coursekit.view import text
+from coursekit.view import pointing, text
 from coursekit.view.controls import Action, Table, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.explorers.solver import Solver
 from coursekit.view.paint import PALETTE
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
+from coursekit.view.silhouettes import silhouettes
 from coursekit.view.target import pose_of, pose_sliders
 
-# The pose of table 4.1 of the TPK4170 report (2021) for the KR6; a pose in reach for every other arm.
-CONFIGURATION = (2.0, -1.0, -1.0, 2.5, 0.6, 0.0)
+# A pose in reach of every arm, where the eight solutions of a KR6 keep the limits and look different.
+CONFIGURATION = (0.6, -1.0, 1.2, 0.7, 0.8, 0.3)
 GUESS = (-1.0, -2.0, 1.0, 0.0, 0.3, 0.0)
 FROM_HOME = (0.5, 0.3, -0.3, 0.4)  # rad, of an arm without a closed form; a slide goes a fifth of that in m
 STEPS = 50
@@ -65,12 +66,14 @@ class _Inverse(yours.Inverse, Explorer):
         self.chosen = self.solver.nearest(self.ways, start)
         self.shown = self.ways.theta[self.chosen] if self.chosen >= 0 else start
         self.arm = self.scene.robot(robot, self.shown)
+        pointing.axes(self.scene, self.arm)
         self.target = self.scene.frame("/ck/target", self.T, letter="d", size=0.08 * self.scene.size)
 
     def controls(self):
         robot = self.robot
         start = np.clip(np.resize(GUESS, robot.n), robot.q_min, robot.q_max)
         guess = joint_sliders(robot, start, name="guess")
+        guess.folded = "Newton's guess"
         for slider in guess.sliders:
             slider.label = f"guess {slider.label}"
         return [
@@ -84,14 +87,14 @@ class _Inverse(yours.Inverse, Explorer):
     def below(self):
         which = "All solutions" if self.solver.closed else "Solutions found by restarts"
         left = "Newton from the guess: angle (circles) and distance (squares) left before each step."
-        self.list = Table("solution", self.table, f"{which}; choose one.", True, self.chosen)
+        self.list = Table("solution", self.table, f"{which}; choose one.", True, self.chosen, self.figures)
         return [self.list, Plot(self.plot, left)]
 
     def update(self, values):
         self.solve(values["pose"], values["guess"], values["solution"])
         self.arm.theta = self.shown
         self.target.move(self.T)
-        self.draw_ghosts(self.others() if values["others"] else {})
+        self.draw_ghosts(self.others(), values["others"])
         way = self.robot.fk(self.steps())[:, :3, 3]
         if values["trace"] and len(way) > 1:
             self.scene.curve("/ck/newton", way)
@@ -135,8 +138,8 @@ class _Inverse(yours.Inverse, Explorer):
             if self.ways.exists[k] and (k != self.chosen or self.frame is not None)
         }
 
-    def draw_ghosts(self, wanted):
-        """Exactly these translucent arms. wanted: name -> configuration."""
+    def draw_ghosts(self, wanted, shown):
+        """Exactly these translucent arms, or only while one is pointed at. wanted: name -> theta."""
         present = {
             name: arm
             for name, arm in self.scene.robots.items()
@@ -149,6 +152,7 @@ class _Inverse(yours.Inverse, Explorer):
                 present[name].theta = theta
             else:
                 self.scene.robot(self.robot, theta, name=name, style="ghost")
+            pointing.mean(self.scene[f"/ck/{name}"], name, hidden=not shown)
 
     def steps(self):
         """Newton's configurations (N, n), the guess first."""
@@ -210,6 +214,16 @@ class _Inverse(yours.Inverse, Explorer):
             values_shown = (text.number(t, 1) for t in per * self.ways.theta[k])
             rows.append([name, *values_shown, "inside" if self.ways.inside[k] else reason])
         return header, rows
+
+    def figures(self, values):
+        """Every solution as a small picture, in the order of the table."""
+        ways = self.ways
+        lines = silhouettes(self.robot, ways.theta, self.T[:3, 3])
+        notes = np.where(ways.inside, "", np.where(ways.exists, "outside", "none"))
+        return [
+            {"lines": lines[k], "name": name, "note": str(notes[k]), "word": f"branch{k}"}
+            for k, name in enumerate(ways.names)
+        ]
 
     def plot(self, figure, values):
         """Angle and distance before each step of Newton's method, on a log axis."""

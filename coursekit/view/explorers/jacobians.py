@@ -8,11 +8,12 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import checks, ik, jacobians, robots, singularity
 from coursekit.kinematics.robot import Robot
-from coursekit.view import text
+from coursekit.view import pointing, text
 from coursekit.view.controls import Action, Slider, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
+from coursekit.view.shapes import frame_along
 from coursekit.view.target import pose_of, pose_sliders
 
 STRETCHED = (0.0, 0.6, 0.0, -0.08, 0.0, 0.5, 0.7)  # of the Panda: elbow almost straight
@@ -69,7 +70,7 @@ class _Jacobians(yours.Jacobians, Explorer):
     """The ellipsoids of the arm as it stands; Newton and damped least squares from there to the target."""
 
     name, title, opener = "jacobians", "Explorer of Jacobian methods", "explore_jacobians"
-    computed = ("/ck/linear", "/ck/angular")
+    computed = ("/ck/linear", "/ck/angular", "/ck/columns")
 
     def __init__(self, robot, poses, mine):
         super().__init__(robot, mine)
@@ -87,6 +88,7 @@ class _Jacobians(yours.Jacobians, Explorer):
         self.start, self.settings = self.near, ()  # of the runs
         self.running = False  # a motion shows a run, or else leads to another start
         self.arm = self.scene.robot(robot, self.near)
+        pointing.axes(self.scene, self.arm, lambda k: f"J{k}")
         self.goal = self.scene.frame("/ck/target", self.target, letter="d", size=0.14 * self.scene.size)
         # metres drawn for 1 m/s and for 1 rad/s; rounded, so that the text is exact
         self.scale = {part: round(scale * self.scene.size, 2) for part, scale in SCALE.items()}
@@ -139,6 +141,36 @@ class _Jacobians(yours.Jacobians, Explorer):
             part: self.scene.ellipsoid(f"/ck/{part}", e.axes, self.scale[part] * e.lengths, tool, COLOR[part])
             for part, e in found.items()
         }
+
+        for k, v in enumerate(J[3:].T, 1):  # columns, as arrows of one shape that are placed and stretched
+            self.column(k, v, tool)
+
+    def column(self, k, v, tool):
+        """How far joint k alone moves the tool, as long as the ellipsoid says."""
+        path, size = f"/ck/columns/{k}", self.scale["linear"]
+        if path not in self.scene.parts:
+            pointing.mean(
+                self.scene.arrow(path, np.zeros(3), [0, 0, size], pointing.COLOR, f"v{k}", 0.03 * size),
+                f"J{k}",
+            )
+        T = frame_along(v, tool) if np.linalg.norm(v) > 1e-9 else np.eye(4)
+        long = max(np.linalg.norm(v), 1e-6)
+        T[:3, :3] *= [np.sqrt(long), np.sqrt(long), long]  # a short one is not thin as a hair
+        self.scene[path].move(T)
+
+    def formula(self, values):
+        """The columns of the Jacobian."""
+        J = self.robot.jacobian_geometric(values["theta"])
+        columns = [
+            (
+                pointing.numbered("J", k),
+                f"J{k}",
+                f"column {k}: joint {k} at 1 {'m' if slides else 'rad'}/s moves the tool point by "
+                f"{text.row(column[3:])} m/s and turns the tool by {text.row(column[:3])} rad/s",
+            )
+            for k, (column, slides) in enumerate(zip(J.T, ~np.any(self.robot.S[:3], axis=0), strict=True), 1)
+        ]
+        return [["J(θ) = ( ", *columns, " )"]]
 
     def words(self, values):
         robot, theta = self.robot, values["theta"]

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import path, robots
 from coursekit.kinematics.robot import Robot
-from coursekit.view import text
+from coursekit.view import pointing, text
 from coursekit.view.controls import Choice, Table, Toggle
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.explorers.letter import Followed, Letter
@@ -74,6 +74,7 @@ class _Path(yours.Path, Explorer):
     def draw(self):
         scene, robot = self.scene, self.robot
         self.arm = scene.robot(robot, self.q[self.branch, 0])
+        pointing.axes(scene, self.arm)
         scene.frame(self.arm.link(robot.n) + "/tool", robot.M, size=0.12 * scene.size)
         scene.curve("/ck/curve", self.points)
         self.switched = {}
@@ -173,6 +174,18 @@ class _Path(yours.Path, Explorer):
             *self.letter.remarks,
         ]
         return "\n".join([*lines, self._fault()] if self.wrapped else lines)
+
+    def formula(self, values):
+        """The speed that each joint allows; the least of them counts."""
+        rates = np.abs(path.joint_rates(self.q[self.branch], self.points, 1.0)).max(axis=0)
+        joints = []
+        for k, (rate, bound) in enumerate(zip(rates, self.bounds, strict=True)):
+            may, unit = text.number(bound), self.rate_unit(k)
+            allowed = f"{text.number(bound / rate, 4)} m/s" if rate > 1e-9 else "any speed"
+            needs = f"needs {text.number(rate)} {unit} at most for 1 m/s of the tool"
+            says = f"joint {k + 1} {needs} and may go {may} {unit}, which allows {allowed}"
+            joints.append((pointing.numbered("v", k + 1), f"theta{k + 1}", says))
+        return [["largest speed = min( ", *joints, " )"]]
 
     def rate_unit(self, joint):
         return "rad/s" if self.letter.turns[joint] else "m/s"

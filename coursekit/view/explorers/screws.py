@@ -6,7 +6,7 @@ import numpy as np
 
 from coursekit.kinematics import axes, lie, robots
 from coursekit.kinematics.robot import Robot
-from coursekit.view import text
+from coursekit.view import pointing, text
 from coursekit.view.controls import Choice, Slider
 from coursekit.view.explorers import Explorer
 from coursekit.view.panel import Panel
@@ -56,6 +56,8 @@ class _Screws(Explorer):
         self.directions, self.points = axes.directions_of(robot.S), axes.points_on(robot.S)
         self.arm = self.scene.robot(robot, np.zeros(robot.n))
         self.arm.look(solid=True, skeleton=True)
+        pointing.axes(self.scene, self.arm)
+        self.pointed = None  # for which frame, joint and point the screws stand ready
 
     def controls(self):
         joints = {f"joint {i + 1}": i for i in range(self.robot.n)}
@@ -99,6 +101,55 @@ class _Screws(Explorer):
         scene.line("/ck/lever", T[:3, 3], lever)
         drawn = 0.3 * scene.size * v if self.slides(i) else v + np.cross(w, T[:3, 3])
         scene.arrow("/ck/v", T[:3, 3], drawn, color="trace", label="v")
+        self.turn.word = f"theta{i + 1}"
+        if self.pointed != (letter, i, values["slide"]):
+            self.pointed = (letter, i, values["slide"])
+            self.point_at(T, i)
+
+    def point_at(self, T, i):
+        """Every screw with its line, lever and v, seen from T; those of joint i each by itself, too."""
+        for k, S in enumerate(self.robot.S.T):
+            q, slides = self.q if k == i else self.origins[k], self.slides(k)
+            q = axes.foot(q, q if slides else self.points[k], self.directions[k])
+            own, at, thick = f"S{k + 1}", T[:3, 3], 0.009 * self.scene.size
+            v = 0.3 * self.scene.size * S[3:] if slides else S[3:] + np.cross(S[:3], at)
+            path, color = f"/ck/screws/{k + 1}", pointing.COLOR
+            parts = {
+                "w": self.scene.screw_axis(f"{path}/w", S, label=own, at=q, color=color, radius=thick),
+                "q": self.scene.line(f"{path}/q", at, at if slides else q, color, f"q{k + 1}", 0.6 * thick),
+                "v": self.scene.arrow(f"{path}/v", at, v, color, f"v{k + 1}", thick),
+            }
+            for name, drawing in parts.items():
+                pointing.mean(drawing, own, *([name] if k == i else []))
+
+    def formula(self, values):
+        """All columns, and how the column of the chosen joint is made."""
+        i, (letter, T) = values["joint"], values["frame"]
+        name, change = "S" if letter == "s" else "B", lie.adjoint(lie.inverse(T))
+        columns = [
+            (
+                pointing.numbered(name, k + 1),
+                f"S{k + 1}",
+                f"column {k + 1} of {name} = {text.row(change @ S)}",
+            )
+            for k, S in enumerate(self.robot.S.T)
+        ]
+        seen, q = change @ self.S, (lie.inverse(T) @ [*self.q, 1])[:3]
+        w = ("ω", "w", f"w = {text.row(seen[:3])}, the direction of axis {i + 1}")
+        v = ("v", "v", f"v = {text.row(seen[3:])}: how the point of the arm at {{{letter}}} goes, per radian")
+        point = ("q", "q", f"q = {text.millimetres(q)}, a point of the axis, any one; the line is its lever")
+        made: list[pointing.Piece] = [
+            pointing.numbered(name, i + 1) + " = (",
+            w,
+            "; ",
+            v,
+            "),   v = −ω × ",
+            point,
+        ]
+        if self.slides(i):
+            v = ("v", "v", f"v = {text.row(seen[3:])}, the direction in which every point goes")
+            made = [pointing.numbered(name, i + 1) + " = (0; ", v, ")"]
+        return [[f"{name} = ( ", *columns, " )"], made]
 
     def words(self, values):
         i, (letter, T) = values["joint"], values["frame"]

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import axes, robots, singularity
 from coursekit.kinematics.robot import Robot
-from coursekit.view import text
+from coursekit.view import pointing, text
 from coursekit.view.controls import Action, Choice, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.figures import nb04
@@ -17,6 +17,11 @@ from coursekit.view.plots import Plot
 from coursekit.view.sketch import ROOT
 
 UNITS = {"wrist": "", "elbow": " m^2", "shoulder": " m"}
+ZERO_WHERE = {
+    "wrist": "0 where axes 4 and 6 are one line",
+    "elbow": "0 where the wrist's centre lies in the plane of axes 2 and 3",
+    "shoulder": "0 where the wrist's centre lies on axis 1",
+}
 JOINTS = {f"θ{k + 1}": k for k in range(1, 5)}  # det J depends on no other joint
 CAPTION = (
     "Dark: det J is small. White lines: a factor is 0 (elbow dashed, shoulder solid, wrist dotted). "
@@ -120,6 +125,12 @@ class _Singularities(yours.Singularities, Explorer):
             ends = axes.foot(origins[k], q, w) + np.outer([-0.6, 0.6], w) * scene.size
             wire = np.linspace(*ends, 33)
             self.lines.append(scene.curve(self.arm.link(k + 1) + "/line", wire, "axis", 0.002 * scene.size))
+        pointing.axes(scene, self.arm, _factor_of if self.split else "J{}".format)
+        if self.split:  # the wrist's centre, for elbow and shoulder
+            wrist = scene.point(
+                self.arm.link(4) + "/wrist", origins[4], "wrist", pointing.COLOR, 0.02 * scene.size
+            )
+            pointing.mean(wrist, "elbow", "shoulder", "wrist")
         for k, slider in enumerate(self.joints.used):
             slider.fit_joint(robot, k, _start(robot)[k])
 
@@ -134,6 +145,21 @@ class _Singularities(yours.Singularities, Explorer):
         for line in self.lines:
             line.show(values["axes"])
         _show_loss(self.scene, self.robot, self.arm.theta, values["lost"], values.get("line", False))
+
+    def formula(self, values):
+        """det J and its factors; of other arms, the columns."""
+        if not self.split:
+            columns = [
+                (pointing.numbered("J", k), f"J{k}", f"column {k}: the axis of joint {k}")
+                for k in range(1, self.robot.n + 1)
+            ]
+            return [["J(θ) = ( ", *columns, " )"]]
+        split = singularity.factors(self.robot, values["theta"])
+        factors = [
+            (name, name, f"{name} {text.number(split[name], 5)}{unit}: {ZERO_WHERE[name]}")
+            for name, unit in UNITS.items()
+        ]
+        return [["det J = ", factors[0], " · ", factors[1], " · ", factors[2]]]
 
     def words(self, values):
         return words(self.robot, values["theta"])
@@ -276,6 +302,11 @@ def _of_few_joints(robot, theta):
     verdict = "regular" if rank == best else "singular"
     few = f"{robot.n} joints: {6 - robot.n} of 6 motions are lost everywhere"
     return [f"{few}; the tool point alone: sigma {text.row(sigma, 5)}, rank {rank} of {best}, {verdict}"]
+
+
+def _factor_of(k):
+    """The factor that is 0 where something lies at the axis of joint k."""
+    return {1: "shoulder", 2: "elbow", 3: "elbow", 4: "wrist", 6: "wrist"}.get(k, "")
 
 
 def _shown_per_si(robot):

@@ -65,7 +65,7 @@ function makeGhosts(THREE, viewer) {
   return function draw(ghosts) {
     for (const path of drawn) viewer.delete_path(splitPath(path));
     drawn = ghosts.map((ghost) => ghost.path);
-    ghosts.forEach(({ src, path, n, color, opacity }, g) => {
+    ghosts.forEach(({ src, path, n, color, opacity, shown }, g) => {
       const links = viewer.scene_tree.find(splitPath(src)).children;
       const passes = materials(color, opacity);
       for (let k = 1; k <= n; k += 1) { // link 0, the base, is there already
@@ -85,6 +85,7 @@ function makeGhosts(THREE, viewer) {
         });
         viewer.set_object([...splitPath(path), String(k), "ghost"], copy);
       }
+      viewer.scene_tree.find(splitPath(path)).object.visible = shown;
     });
   };
 }

@@ -44,6 +44,7 @@ function buildSlider(model, el) {
   const track = element("div", { class: "ck-track" }, range, ends);
   const row = element("div", { class: "ck-slider" }, name, track, box, element("span", { class: "ck-unit" }, unit), hint);
   leaveRoom(row, model);
+  pointsAt(row, model.get("word"));
   el.append(row);
 
   // The limits of the joint, marked where they are: at the ends, or inside when the slider goes beyond them.
@@ -189,10 +190,11 @@ function text(model, el) {
 function table(model, el) {
   const body = element("tbody"), head = element("thead");
   const caption = element("caption", {}, model.get("label"));
-  const group = unique("table");
+  const group = unique("table"), figures = smallFigures((i) => tell(model, { value: i }));
   const draw = () => {
     const focused = document.activeElement && body.contains(document.activeElement);
     const selectable = model.get("selectable"), value = model.get("value");
+    figures.draw(model.get("figures"), value);
     const titles = model.get("header").map((title) => element("th", { scope: "col" }, title));
     head.replaceChildren(element("tr", {}, ...(selectable ? [element("th", { scope: "col" }, element("span", { class: "ck-spoken" }, "choose"))] : []), ...titles));
     body.replaceChildren(...model.get("rows").map((row, i) => {
@@ -210,8 +212,8 @@ function table(model, el) {
       return line;
     }));
   };
-  el.append(element("div", { class: "ck-scroll" }, element("table", { class: "ck-table" }, caption, head, body)));
-  for (const name of ["rows", "header", "value"]) model.on(`change:${name}`, draw);
+  el.append(figures.node, element("div", { class: "ck-scroll" }, element("table", { class: "ck-table" }, caption, head, body)));
+  for (const name of ["rows", "header", "value", "figures"]) model.on(`change:${name}`, draw);
   draw();
 }
 
@@ -263,7 +265,7 @@ function picture(model, el) {
   return () => watch.disconnect();
 }
 
-const makers = { slider, choice, toggle, action, text, table, picture };
+const makers = { slider, choice, toggle, action, text, table, picture, formula };
 
 export default {
   render({ model, el }) {

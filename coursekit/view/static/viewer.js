@@ -98,6 +98,7 @@ export default function () {
       const labels = makeLabels(MeshCat.THREE, viewer, pane, stage.renderer);
       const drawGhosts = makeGhosts(MeshCat.THREE, viewer);
       const camera = makeCamera(MeshCat.THREE, viewer, pane);
+      const pointer = makePointer(viewer, model, box);
       stage.resized = camera.fit;
 
       // --- poses: the latest one wins and is drawn once; a motion draws its own
@@ -159,6 +160,7 @@ export default function () {
       const onGhosts = () => {
         drawGhosts(model.get("ghosts"));
         onPose();
+        pointer.show();
       };
       const onLabels = () => {
         labels.set(model.get("labels"));
@@ -185,6 +187,7 @@ export default function () {
 
       const view = {
         change(deleted, buffers) {
+          pointer.restore();
           for (const path of deleted) viewer.delete_path(splitPath(path));
           for (const bytes of buffers) {
             try {
@@ -195,6 +198,7 @@ export default function () {
           }
           if (model.get("ghosts").length) drawGhosts(model.get("ghosts")); // their geometry may have been replaced
           onPose(); // what was drawn anew stands at the origin until it is placed
+          pointer.show();
         },
         picture() {},
       };
@@ -217,6 +221,7 @@ export default function () {
         unwatch();
         follower.end();
         handles.end();
+        pointer.end();
         uncover();
         delete box.coursekit;
         el.replaceChildren();

@@ -1,0 +1,81 @@
+// A formula whose parts can be pointed at, each with a sentence of what it is now.
+
+const POINT = "Point at a part, with the mouse, Tab or a tap: the picture shows it.";
+
+function formula(model, el) {
+  const lines = element("div", { class: "ck-formula", role: "group", "aria-label": `formula. ${POINT}` });
+  const meaning = element("div", { class: "ck-meaning", role: "status" }, POINT);
+  const told = latestWord();
+  let drawn = "";
+  const say = () => {
+    const says = model.get("says")[told.word()] || POINT;
+    if (meaning.textContent !== says) meaning.textContent = says;
+  };
+  const written = (text) => { // what follows "^" is raised
+    const [base, raised] = text.split("^");
+    return raised ? [base, element("sup", {}, raised)] : [base];
+  };
+  const part = ([text, word]) => {
+    if (!word) return element("span", {}, ...written(text));
+    const node = element("button", { ...own, type: "button", class: "ck-part" }, ...written(text));
+    node.addEventListener("click", () => node.focus()); // not every browser does that
+    keepKeys(node);
+    pointsAt(node, word);
+    return node;
+  };
+  const draw = () => {
+    const value = model.get("value");
+    el.hidden = !value.length;
+    if (drawn !== (drawn = JSON.stringify(value))) { // else whoever points at a part goes on
+      for (const how of ["hover", "focus"]) lines.dispatchEvent(new CustomEvent("ck-point", { bubbles: true, detail: { how, word: "" } }));
+      lines.replaceChildren(...value.map((line) => element("div", {}, ...line.map(part))));
+    }
+    say();
+  };
+  lines.addEventListener("ck-point", ({ detail }) => {
+    told.take(detail);
+    say();
+  });
+  el.append(lines, meaning);
+  model.on("change:value", draw);
+  model.on("change:says", say);
+  draw();
+}
+
+// A small figure for each row of a table: a click chooses it, pointing at it shows it in the picture. `choose(i)`.
+function smallFigures(choose) {
+  const node = element("div", { class: "ck-figures", role: "group", "aria-label": "the rows of the table as figures" });
+  const SVG = "http://www.w3.org/2000/svg", KINDS = ["ground", "goal", "arm"];
+  let buttons = [];
+  const make = ({ word }, i) => {
+    const button = element("button", { ...own, type: "button", class: "ck-one" });
+    button.addEventListener("click", () => choose(i));
+    keepKeys(button);
+    pointsAt(button, word);
+    return button;
+  };
+  const fill = (button, { lines, name, note }, isChosen) => {
+    const says = { none: "does not exist", outside: "outside the limits" }[note] || "";
+    const drawing = document.createElementNS(SVG, "svg");
+    drawing.setAttribute("viewBox", "0 0 100 76");
+    drawing.setAttribute("aria-hidden", "true");
+    lines.forEach((points, k) => {
+      const line = document.createElementNS(SVG, "polyline");
+      line.setAttribute("points", points);
+      line.setAttribute("class", `ck-${KINDS[k] || "fin"}`);
+      drawing.append(line);
+    });
+    button.replaceChildren(drawing, element("span", {}, name), element("span", { class: "ck-note" }, says));
+    button.disabled = note === "none";
+    button.setAttribute("aria-pressed", isChosen);
+    button.classList.toggle("ck-out", Boolean(note));
+  };
+  return {
+    node,
+    draw(figures, value) {
+      node.hidden = !figures.length;
+      if (buttons.length !== figures.length) node.replaceChildren(...(buttons = figures.map(make)));
+      figures.forEach((figure, i) => fill(buttons[i], figure, i === value));
+    },
+  };
+}
