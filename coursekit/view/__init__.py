@@ -43,7 +43,7 @@ _WHERE = {
     "Plot": "plots",
     "png": "picture",
     "to_html": "page",
-    "Table": "controls",
+    "Table": "table",
 }
 _MODULES = ("controls", "meshcat", "page", "panel", "picture", "plots", "reopened", "scene", "text", "viewer")
 

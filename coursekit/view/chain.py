@@ -42,6 +42,13 @@ class Joint:
     def length(self) -> float:
         return float(np.linalg.norm(self.leave - self.enter))
 
+    def reach_of(self, S: np.ndarray, first: bool) -> tuple[np.ndarray, float]:
+        """Where the arrow of its screw S (6,) begins, (3,), and its length; the `first` from the floor."""
+        out, way = 2.5 * self.radius * self.along, S[:3] if np.any(S[:3]) else S[3:]
+        ends = self.enter if first else self.enter - out, self.leave + out
+        start, end = ends if way @ self.along > 0 else ends[::-1]
+        return start, float((end - start) @ way)
+
 
 @dataclass
 class Chain:

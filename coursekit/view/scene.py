@@ -84,10 +84,8 @@ class Arm(Drawing):
         """Draw the screw axes, each below its link's path as `name`; `look` as of `Scene.screw_axis`."""
         drawn = []
         for k, (S, joint) in enumerate(zip(self.robot.S.T, chain(self.robot).joints, strict=True), 1):
-            out, way = 2.5 * joint.radius * joint.along, S[:3] if np.any(S[:3]) else S[3:]
-            ends = joint.enter - (k > 1) * out, joint.leave + out  # the first begins at the floor
-            start, end = ends if way @ joint.along > 0 else ends[::-1]
-            place: dict = {"label": f"{label}{k}", "at": start, "length": (end - start) @ way}
+            at, length = joint.reach_of(S, first=k == 1)
+            place: dict = {"label": f"{label}{k}", "at": at, "length": length}
             drawn.append(self.scene.screw_axis(f"{self.link(k)}/{name}", S, **place, **look))
         return drawn
 
@@ -172,11 +170,11 @@ class Scene:
     @property
     def ghosts(self) -> list[dict]:
         """Copies of src/k/solid at path/k/ghost, k = 1..n; one not shown is there for who points at it."""
-        arms = [a for a in self.robots.values() if a.style == "ghost"]
-        looks = [{"color": color(a.color), "opacity": 0.3, "shown": self.visible(a.path)} for a in arms]
+        ghosts = [a for a in self.robots.values() if a.style == "ghost"]
         return [
-            {"src": f"/ck/{a.source}", "path": a.path, "n": a.robot.n, **look}
-            for a, look in zip(arms, looks, strict=True)
+            {"src": f"/ck/{a.source}", "path": a.path, "n": a.robot.n, "color": color(a.color)}
+            | {"opacity": 0.3, "shown": self.visible(a.path)}
+            for a in ghosts
         ]
 
     @property

@@ -8,13 +8,14 @@ from numpy.typing import ArrayLike
 from coursekit.kinematics import ik, robots
 from coursekit.kinematics.robot import Robot
 from coursekit.view import pointing, text
-from coursekit.view.controls import Action, Table, Toggle, joint_sliders
+from coursekit.view.controls import Action, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.explorers.solver import Solver
 from coursekit.view.paint import PALETTE
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
 from coursekit.view.silhouettes import silhouettes
+from coursekit.view.table import Table
 from coursekit.view.target import pose_of, pose_sliders
 
 # A pose in reach of every arm, where the eight solutions of a KR6 keep the limits and look different.

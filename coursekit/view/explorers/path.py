@@ -8,11 +8,12 @@ from numpy.typing import ArrayLike
 from coursekit.kinematics import path, robots
 from coursekit.kinematics.robot import Robot
 from coursekit.view import pointing, text
-from coursekit.view.controls import Choice, Table, Toggle
+from coursekit.view.controls import Choice, Toggle
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.explorers.letter import Followed, Letter
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
+from coursekit.view.table import Table
 
 POINTS = (101, 201, 501, 1001, 5001)
 FRAMES = 501  # the most poses that are sent to the page
