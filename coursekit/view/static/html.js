@@ -11,13 +11,6 @@ function element(tag, attributes = {}, ...children) {
 const own = { "data-lm-suppress-shortcuts": "true" };
 const keepKeys = (node) => node.addEventListener("keydown", (event) => event.stopPropagation());
 
-// Pointing at a node, by mouse, Tab or tap, is told to the picture of its panel: it shows what the word means.
-function pointsAt(node, word) {
-  const say = (how, what) => node.dispatchEvent(new CustomEvent("ck-point", { bubbles: true, detail: { how, word: what } }));
-  const acts = { pointerenter: ["hover", word], pointerleave: ["hover", ""], focusin: ["focus", word], focusout: ["focus", ""] };
-  for (const [event, told] of Object.entries(acts)) node.addEventListener(event, () => say(...told));
-}
-
 // The word that was pointed at last, of those that still are: by the mouse, by the focus.
 function latestWord() {
   const told = new Map();

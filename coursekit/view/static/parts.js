@@ -1,4 +1,11 @@
-// A formula whose parts can be pointed at, each with a sentence of what it is now.
+// What points into the picture: a formula, whose parts each have a sentence of what they are now, and small figures.
+
+// Pointing at a node, by mouse, Tab or tap, is told to the picture of its panel: it shows what the word means.
+function pointsAt(node, word) {
+  const say = (how, what) => node.dispatchEvent(new CustomEvent("ck-point", { bubbles: true, detail: { how, word: what } }));
+  const acts = { pointerenter: ["hover", word], pointerleave: ["hover", ""], focusin: ["focus", word], focusout: ["focus", ""] };
+  for (const [event, told] of Object.entries(acts)) node.addEventListener(event, () => say(...told));
+}
 
 const POINT = "Point at a part, with the mouse, Tab or a tap: the picture shows it.";
 
@@ -26,13 +33,14 @@ function formula(model, el) {
   const draw = () => {
     const value = model.get("value");
     el.hidden = !value.length;
-    if (drawn !== (drawn = JSON.stringify(value))) { // else whoever points at a part goes on
+    if (drawn !== JSON.stringify(value)) { // else whoever points at a part goes on
+      drawn = JSON.stringify(value);
       for (const how of ["hover", "focus"]) lines.dispatchEvent(new CustomEvent("ck-point", { bubbles: true, detail: { how, word: "" } }));
       lines.replaceChildren(...value.map((line) => element("div", {}, ...line.map(part))));
     }
     say();
   };
-  lines.addEventListener("ck-point", ({ detail }) => {
+  lines.addEventListener("ck-point", (/** @type {any} */ { detail }) => {
     told.take(detail);
     say();
   });
@@ -74,7 +82,10 @@ function smallFigures(choose) {
     node,
     draw(figures, value) {
       node.hidden = !figures.length;
-      if (buttons.length !== figures.length) node.replaceChildren(...(buttons = figures.map(make)));
+      if (buttons.length !== figures.length) {
+        buttons = figures.map(make);
+        node.replaceChildren(...buttons);
+      }
       figures.forEach((figure, i) => fill(buttons[i], figure, i === value));
     },
   };

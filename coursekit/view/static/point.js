@@ -26,7 +26,7 @@ function makePointer(viewer, model, box) {
     }
     viewer.set_dirty();
   };
-  const listen = ({ target, detail }) => {
+  const listen = (/** @type {any} */ { target, detail }) => {
     if (target.closest(".ck-panel") !== box.closest(".ck-panel")) return; // another explorer's
     told.take(detail);
     show();
