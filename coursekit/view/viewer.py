@@ -276,7 +276,9 @@ class Viewer(anywidget.AnyWidget):
             size = int(content.get("width", 640)), int(content.get("height", 420))
             with self._lock:
                 if self.scene is not None:  # closed meanwhile
-                    self.send({"type": "png"}, buffers=[png(self.scene, *size)])
+                    view = content.get("view")
+                    seen = png(self.scene, *size, view if view in self.scene.views else "home")
+                    self.send({"type": "png"}, buffers=[seen])
 
 
 def mimebundle(widget: ipywidgets.Widget, viewer: Viewer) -> tuple[dict, dict]:

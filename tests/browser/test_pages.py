@@ -10,6 +10,10 @@ pytestmark = pytest.mark.browser
 IMPORT = "import numpy as np\nfrom coursekit import robots, view"
 SHOW = "kr6 = robots.kuka_kr6()\npanel = view.explore(kr6)\npanel"
 TOOL = "/ck/robot/6/tool"
+NO_WEBGL = """const original = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+      return /webgl/.test(kind) ? null : original.call(this, kind, ...rest);
+    };"""
 DRAWN = "() => document.querySelector('.ck-viewer')?.coursekit?.stage.frames > 0"
 
 
@@ -76,12 +80,7 @@ def test_keys_and_drags_in_a_hurry_end_at_the_last_value(notebook, lab):
 
 def test_without_webgl_there_is_a_picture_and_a_sentence(open_page, lab):
     notebook = open_page()
-    notebook.page.add_init_script(
-        """const original = HTMLCanvasElement.prototype.getContext;
-           HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
-             return /webgl/.test(kind) ? null : original.call(this, kind, ...rest);
-           };"""
-    )
+    notebook.page.add_init_script(NO_WEBGL)
     notebook.open(lab.write("nowebgl.ipynb", IMPORT, SHOW))
     notebook.run_all()
     picture = notebook.page.locator(".ck-picture")
@@ -94,6 +93,69 @@ def test_without_webgl_there_is_a_picture_and_a_sentence(open_page, lab):
     notebook.page.locator("[role=slider]").first.press("PageUp")
     notebook.page.wait_for_function("(old) => document.querySelector('.ck-picture').src !== old", arg=before)
     assert "10.0" in picture.get_attribute("alt")
+
+
+PICTURE = """async (unlike) => { // as base64, once it is another one
+    const read = async () => {
+        const answer = await fetch(document.querySelector(".ck-picture").src);
+        const bytes = new Uint8Array(await answer.arrayBuffer());
+        return btoa(bytes.reduce((text, byte) => text + String.fromCharCode(byte), ""));
+    };
+    for (let tries = 0; tries < 100; tries += 1) {
+        const now = await read().catch(() => unlike);
+        if (now !== unlike) return now;
+        await new Promise((done) => setTimeout(done, 200));
+    }
+}"""
+
+
+def test_without_webgl_there_are_views_and_a_player(open_page, lab):
+    notebook = open_page()
+    notebook.page.add_init_script(NO_WEBGL)
+    motion = "q = np.linspace(kr6.home, kr6.home + 0.5, 11)\npanel.play(q, autoplay=False)"
+    notebook.open(lab.write("views.ipynb", IMPORT + "\nimport base64", SHOW, motion))
+    notebook.run_all()
+    page = notebook.page
+    page.wait_for_function("() => document.querySelector('.ck-picture')?.naturalWidth > 0", timeout=30_000)
+    size = page.eval_on_selector(".ck-pane", "(pane) => [pane.clientWidth, pane.clientHeight]")
+    drawn = f"base64.b64encode(view.png(panel.scene, *{size}, {{!r}})).decode()"
+
+    home = page.evaluate(PICTURE, None)
+    page.get_by_role("button", name="top", exact=True).click()
+    top = page.evaluate(PICTURE, home)
+    assert top == notebook.kernel(drawn.format("top"))
+
+    page.locator(".ck-scrub").press("End")
+    assert page.inner_text(".ck-count") == "11 / 11"
+    assert page.evaluate(PICTURE, top) == notebook.kernel(
+        drawn.format("top")
+    )  # of the last pose, still from above
+    np.testing.assert_allclose(
+        notebook.kernel("panel.scene.robots['robot'].theta.tolist()"),
+        robots.kuka_kr6().home + 0.5,
+        atol=1e-12,
+    )
+    assert [said for said in notebook.errors if "creating WebGL" not in said] == []
+
+
+def test_on_paper_the_robot_is_not_cut_off(browser, tmp_path):
+    panel = view.explore(robots.kuka_kr6())
+    (tmp_path / "page.html").write_text(view.to_html(panel), "utf-8")
+    panel.close()
+    context = browser.new_context(viewport={"width": 1400, "height": 900})
+    page = context.new_page()
+    page.goto((tmp_path / "page.html").as_uri())
+    page.wait_for_function(DRAWN, timeout=60_000)
+    page.emulate_media(media="print")  # the window stays as wide as it is; a sheet has about 700 pixels
+    box = """(one) => { const { left, right, top, bottom } = one.getBoundingClientRect();
+                        return [left, right, top, bottom]; }"""
+    left, right, top, bottom = page.eval_on_selector(".ck-viewer canvas", box)
+    outer = page.eval_on_selector(".ck-viewer", box)
+    assert 300 < right - left < 700
+    assert left >= outer[0] and right <= outer[1] and top >= outer[2] and bottom <= outer[3]
+    assert page.eval_on_selector("#sliders", box)[2] >= outer[3]
+    assert not page.is_visible(".ck-views")
+    context.close()
 
 
 @pytest.mark.parametrize(

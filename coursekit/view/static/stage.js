@@ -201,6 +201,9 @@ function makeStage(MeshCat, pane, quality) {
   viewer.set_3d_pane_size = function () {
     if (!pane.isConnected || !pane.clientWidth || !pane.clientHeight) return;
     meshcatViewer.set_3d_pane_size.call(this, pane.clientWidth, pane.clientHeight);
+    // paper is narrower than most windows: the style sheet makes the picture smaller there, letters and all
+    pane.parentElement.style.setProperty("--ck-w", pane.clientWidth);
+    pane.parentElement.style.setProperty("--ck-h", pane.clientHeight);
   };
   viewer.set_object = function (path, object) {
     const node = viewer.scene_tree.find(path.concat(["<object>"]));

@@ -87,7 +87,7 @@ export default function () {
         stage = makeStage(MeshCat, pane, model.get("quality"));
       } catch (error) {
         uncover();
-        const end = showPicture(model, pane, views, player, error);
+        const end = showPicture(model, pane, buttons, views, player, error);
         return () => {
           unwatch();
           end();
@@ -168,12 +168,7 @@ export default function () {
       };
       const onCamera = () => {
         camera.lens(model.get("camera"));
-        buttons.replaceChildren();
-        for (const [name, where] of Object.entries(model.get("views"))) {
-          const button = element("button", { ...own, type: "button", class: "ck-button", title: `${name} view` }, name);
-          button.onclick = () => camera.show(where);
-          buttons.append(button);
-        }
+        offerViews(model, buttons, (_, where) => camera.show(where));
         if (model.get("camera").position) camera.show(model.get("camera"));
       };
       const onText = () => pane.setAttribute("aria-label", model.get("description"));
@@ -264,16 +259,24 @@ function showFirst(model, pane, cover, views, drawn) {
   };
 }
 
+function offerViews(model, buttons, choose) {
+  buttons.replaceChildren(...Object.entries(model.get("views")).map(([name, where]) => {
+    const button = element("button", { ...own, type: "button", class: "ck-button", title: `${name} view` }, name);
+    button.onclick = () => choose(name, where);
+    return button;
+  }));
+}
+
 // No WebGL, or a policy that forbids the bundle: the picture the kernel draws, renewed at most twice a second.
-function showPicture(model, pane, views, player, error) {
+function showPicture(model, pane, buttons, views, player, error) {
   const image = element("img", { class: "ck-picture", alt: model.get("description") });
   const reason = /WebGL/i.test(error.message) ? "this browser has no WebGL" : error.message;
   pane.replaceChildren(image, element("p", { class: "ck-wait" }, `A still picture in place of the 3D view: ${reason}.`));
-  let timer = null;
+  let timer = null, seenFrom = "home";
   const ask = () => {
     timer = timer || setTimeout(() => {
       timer = null;
-      model.send({ type: "need_png", width: pane.clientWidth || 640, height: pane.clientHeight || 420 });
+      model.send({ type: "need_png", view: seenFrom, width: pane.clientWidth || 640, height: pane.clientHeight || 420 });
     }, 500);
   };
   const view = {
@@ -282,6 +285,11 @@ function showPicture(model, pane, views, player, error) {
       URL.revokeObjectURL(image.src);
       image.src = URL.createObjectURL(new Blob([bytes], { type: "image/png" }));
       image.alt = model.get("description");
+      if (buttons.firstChild) return;
+      offerViews(model, buttons, (name) => { // once it is known that a kernel draws
+        seenFrom = name;
+        ask();
+      });
     },
   };
   const onMotion = () => player.load(model.get("motion"));
