@@ -27,7 +27,6 @@ under one lock, because slider messages arrive in more than one thread. Nothing 
 import contextlib
 import threading
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import ipywidgets
@@ -36,24 +35,11 @@ from numpy.typing import ArrayLike
 
 from coursekit.view import cells, layout
 from coursekit.view import controls as parts
+from coursekit.view.motion import Motion
 from coursekit.view.pointing import Formula
-from coursekit.view.scene import Arm, Scene
+from coursekit.view.scene import Scene
 from coursekit.view.target import PoseSliders
 from coursekit.view.viewer import Viewer, mimebundle
-
-
-@dataclass
-class Motion:
-    """Joint values (N, n) that a robot of the scene goes through, and the one that is shown now."""
-
-    arm: Arm
-    thetas: np.ndarray
-    frame: int = 0
-
-    @property
-    def theta(self) -> np.ndarray:
-        """The configuration that is shown, (n,)."""
-        return self.thetas[self.frame]
 
 
 class Panel(ipywidgets.VBox):
