@@ -1,6 +1,7 @@
-"""How fast an explorer follows its slider, how its motion plays, and what 200 runs of its cell leave behind.
+"""How soon the first explorer of a page is there, how fast it follows a slider and a hand in the picture, how
+its motion plays, and what 200 runs of its cell leave behind.
 
-    python tests/benchmark/browser.py [--executions 200] [--moves 60]
+    python tests/benchmark/browser.py [--executions 200] [--moves 60] [--pages 5]
 
 Starts a private JupyterLab and a headless Chromium (see tests/requirements-ci.txt) and prints one table. The
 times are those of this machine: beside them stand an empty round trip of the same kind of widget, and the
@@ -95,6 +96,47 @@ POSES_SEEN = """() => {
     stage.afterFrame.push(() => { poses.add(link.matrixWorld.elements.join()); frames += 1; });
 }"""
 
+# When a cell is run, when its stored picture and its first frame are there, and the long tasks.
+FIRST = """window.first = { tasks: [] };
+new PerformanceObserver((list) => first.tasks.push(...list.getEntries()))
+  .observe({ type: "longtask", buffered: true });
+first.look = () => {
+  const view = document.querySelector(".ck-viewer"), cover = document.querySelector(".ck-cover");
+  if (cover?.naturalWidth || view?.coursekit?.stage.frames) first.picture ??= performance.now();
+  if (view?.coursekit?.stage.frames) return (first.frame = performance.now());
+  requestAnimationFrame(first.look);
+};"""
+RUN_LAST = """() => {
+    const notebook = window.jupyterapp.shell.currentWidget.content;
+    notebook.activeCellIndex = notebook.widgets.length - 1;
+    first.begun = performance.now();
+    first.look();
+    window.jupyterapp.commands.execute("notebook:run-cell");
+}"""
+FIRST_TIMES = """() => {
+    const tasks = first.tasks.filter((task) => task.startTime >= first.begun).map((task) => task.duration);
+    return [first.picture - first.begun, first.frame - first.begun, Math.max(0, ...tasks)];
+}"""
+# When the pointer moved, and the first frame after it in which a translucent arm stands elsewhere.
+GHOSTS = """() => {
+    const { stage, viewer } = document.querySelector(".ck-viewer").coursekit;
+    const { children } = viewer.scene_tree.find(["ck"]);
+    const arms = Object.keys(children).filter((name) => name.startsWith("branch"));
+    const hands = arms.map((name) => children[name].children[6]);
+    const stands = () => hands.map(({ object }) => object.matrixWorld.elements.join()).join();
+    let last = stands();
+    window.ghosts = { times: [] };
+    addEventListener("pointermove", (event) => { ghosts.moved = event.timeStamp; }, true);
+    stage.afterFrame.push(() => {
+      const now = stands();
+      if (now !== last && ghosts.moved) ghosts.times.push(performance.now() - ghosts.moved);
+      if (now !== last) ghosts.moved = 0;
+      last = now;
+    });
+    const box = document.querySelector(".ck-handle.x").getBoundingClientRect();
+    return [box.left + box.width / 2, box.top + box.height / 2];
+}"""
+
 
 class Raw:
     """A scene's command as meshcat's window wants it."""
@@ -122,6 +164,45 @@ def slider_and_echo(notebook, moves):
     yield "empty round trip of such a slider", quantiles(echoes[5:])
     yield "slider key -> pose is in the page", quantiles(arrived)
     yield "slider key -> pose is drawn", quantiles(drawn)
+
+
+def first_explorer(lab, browser, name, pages):
+    """Rows of the first explorer of a page, each in a page and a kernel of its own."""
+    times = []
+    for k in range(pages):
+        context = browser.new_context(viewport=SIZE)
+        notebook = Notebook(lab, context.new_page())
+        notebook.page.add_init_script(FIRST)
+        notebook.open(lab.write(f"{name}{k}.ipynb", "from coursekit import view", f"view.{name}()"))
+        notebook.kernel("exec('from coursekit import view')")
+        notebook.page.evaluate(RUN_LAST)
+        notebook.wait_view()
+        times.append(notebook.page.evaluate(FIRST_TIMES))
+        context.close()
+    for what, column in zip(("stored picture", "first frame"), np.array(times).T, strict=False):
+        yield f"{name}: cell run -> {what}", quantiles(column)
+    yield f"{name}: longest task until then", quantiles(np.array(times)[:, 2])
+
+
+def drag_to_ghosts(lab, browser, moves):
+    """Times from a move of the pointer that holds the target to the frame with all solutions there, ms."""
+    notebook = Notebook(lab, browser.new_page(viewport=SIZE))
+    notebook.open(lab.write("drag.ipynb", "from coursekit import view\nview.explore_inverse()"))
+    notebook.run_all()
+    notebook.wait_view()
+    notebook.page.evaluate("() => document.querySelector('.ck-viewer').scrollIntoView()")
+    at = np.array(notebook.page.evaluate(GHOSTS))
+    mouse = notebook.page.mouse
+    mouse.move(*at)
+    mouse.down()
+    for k in range(moves + 5):
+        mouse.move(*(at + [3 * (k % 2) + 2, 2 * (k % 2)]))
+        notebook.page.wait_for_function("k => ghosts.times.length > k", arg=k)
+        notebook.page.wait_for_timeout(40)
+    mouse.up()
+    times = notebook.page.evaluate("ghosts.times")[5:]
+    notebook.page.close()
+    return times
 
 
 def from_kernel(notebook, moves):
@@ -228,6 +309,7 @@ def main():
     options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     options.add_argument("--executions", type=int, default=200)
     options.add_argument("--moves", type=int, default=60)
+    options.add_argument("--pages", type=int, default=5)
     options = options.parse_args()
     from playwright.sync_api import sync_playwright
 
@@ -241,6 +323,11 @@ def main():
             print(", ".join(f"{name} {version(name)}" for name in names))
             print(f"load when it began {os.getloadavg()[0]:.1f}\n")
             show("milliseconds, KUKA KR6", f"{'p50':>8} {'p95':>8}")
+            for name in ("explore", "explore_inverse"):
+                for row in first_explorer(lab, browser, name, options.pages):
+                    show(*row)
+            dragged = drag_to_ghosts(lab, browser, options.moves)
+            show("explore_inverse: target dragged -> all solutions drawn", quantiles(dragged))
             for quality in ("auto", "low"):
                 notebook = Notebook(lab, browser.new_page(viewport=SIZE))
                 notebook.open(lab.write(f"{quality}.ipynb", SHOW.format(quality=quality), ECHO))

@@ -92,6 +92,19 @@ def rotations_between(A, B):
     return 0.5 * np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
 
 
+def test_the_arrows_of_the_target_are_in_the_picture_at_first(opened):
+    explorer = opened("inverse", robots.kuka_kr6(), "view.explore_inverse()")
+    for height in (430, 330):
+        explorer.kernel(f"viewer.set_trait('height', {height})")
+        explorer.settle()
+        pane = explorer.page.locator(".ck-pane").bounding_box()
+        for name in "xyz":
+            at, arrow = centre(explorer, f"move {{d}} along its {name}"), f"arrow {name} at {height}"
+            assert handle(explorer, f"move {{d}} along its {name}").is_visible(), arrow
+            inside = at - [pane["x"], pane["y"]]
+            assert (inside >= 12).all() and (inside <= [pane["width"] - 12, pane["height"] - 12]).all(), arrow
+
+
 def test_a_handle_takes_keys(opened):
     explorer = opened("inverse", robots.kuka_kr6(), "view.explore_inverse()")
     before = target(explorer)

@@ -51,16 +51,24 @@ function makeLabels(THREE, viewer, pane, renderer) {
 }
 
 // Translucent copies of a robot. They share its geometry, so nothing is sent. Each first writes only depth and then
-// its colour: overlapping parts of one ghost do not add up, and its insides stay hidden.
+// its colour: overlapping parts of one ghost do not add up, and its insides stay hidden. In quick frames they are flat,
+// of fewer triangles and written once: seven of them are most of what a frame costs without a GPU.
 function makeGhosts(THREE, viewer) {
   let drawn = [];
+  const coarse = new WeakMap(); // of geometries
+  const coarsely = (geometry) => {
+    const { points } = geometry.parameters || {};
+    if (!coarse.has(geometry)) coarse.set(geometry, geometry.type === "LatheGeometry" ? new THREE.LatheGeometry(points, 8) : geometry);
+    return coarse.get(geometry);
+  };
   const materials = (color, opacity) => {
     const offset = { polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 4, transparent: true };
     const depth = new THREE.MeshBasicMaterial({ ...offset, colorWrite: false });
     const paint = new THREE.MeshLambertMaterial({ ...offset, opacity, emissiveIntensity: 0.35 });
     paint.color.setHex(color).convertSRGBToLinear();
     paint.emissive.copy(paint.color);
-    return [depth, paint];
+    const flat = new THREE.MeshBasicMaterial({ ...offset, opacity, color: paint.color });
+    return [depth, paint, flat];
   };
   return function draw(ghosts) {
     for (const path of drawn) viewer.delete_path(splitPath(path));
@@ -76,7 +84,9 @@ function makeGhosts(THREE, viewer) {
           if (!part.isMesh) return;
           part.updateMatrix();
           passes.forEach((material, pass) => {
-            const mesh = new THREE.Mesh(part.geometry, material);
+            const isQuick = pass === 2;
+            const mesh = new THREE.Mesh(isQuick ? coarsely(part.geometry) : part.geometry, material);
+            mesh.layers.set(isQuick ? QUICK_LAYER : FULL_LAYER);
             mesh.matrixAutoUpdate = false;
             mesh.matrix.copy(part.matrix);
             mesh.renderOrder = 10 + 4 * g + pass;

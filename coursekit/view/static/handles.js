@@ -4,10 +4,10 @@
 // A grip moves its point by one number; where the pointer goes, that number follows: along the way of the point on the
 // screen. All of it ends in sliders, as if a person had moved those, and reaches the kernel as one message.
 
-const ARROW = 88, RING = 48; // pixels
+const ARROW = 88, RING = 48, EDGE = 16; // pixels
 const SVG = "http://www.w3.org/2000/svg";
 
-// taken(): a hand has moved something; redraw(): what stands where has changed
+// taken(what): a hand has moved "theta" or the "target"; redraw(): what stands where has changed
 function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, redraw }) {
   const layer = element("div", { class: "ck-handles", role: "group", "aria-label": "handles in the picture" });
   const lines = document.createElementNS(SVG, "svg");
@@ -30,6 +30,13 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
     const far = viewer.scene_tree.find(["ck"]).object.localToWorld(point.set(...p)).distanceTo(eye.setFromMatrixPosition(viewer.camera.matrixWorld));
     return height / 2 / Math.tan((Math.PI / 360) * viewer.camera.fov) / far;
   };
+  // An arrow from p along `way`, in metres: shorter where its end would leave the picture.
+  const arrowFrom = (p, way) => {
+    const { width, height } = renderer.size(), long = ARROW / perMetre(p);
+    const a = project(p), b = project(p.map((x, i) => x + long * way[i]));
+    const parts = [width, height].map((end, i) => (b[i] > a[i] ? end - EDGE - a[i] : a[i] - EDGE) / Math.abs(b[i] - a[i]));
+    return long * Math.max(0.3, Math.min(1, ...parts.filter((part) => part > 0)));
+  };
   // How far a number must go so that point p, which moves by `way` metres for 1, follows the pointer by (dx, dy) pixels.
   const follow = (p, way, dx, dy) => {
     const size = 1e-3, a = project(p), b = project(p.map((x, i) => x + size * way[i]));
@@ -48,18 +55,19 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
     sent += 1;
     model.set("dragged", { what, values: sliders.map((slider) => slider && slider.get("value")), live, count: sent });
     model.save_changes();
-    taken();
   };
   const unheard = () => sent > model.get("heard");
   const putTarget = (T, live) => {
     put("target", target.sliders, valuesOf(T).map((value, k) => value * target.per[k]), live);
     held = target.sliders.map((slider, k) => slider.get("value") / target.per[k]);
+    taken("target");
   };
   const targetValues = () => held || target.sliders.map((slider, k) => slider.get("value") / target.per[k]);
   const targetPose = () => poseOf(targetValues());
   const putTheta = (theta, live) => {
     const { per } = model.get("drive");
     put("theta", follower.sliders(), theta.map((q, k) => q * per[k]), live);
+    taken("theta");
   };
   const ends = () => follower.sliders().map((slider, k) => {
     const per = model.get("drive").per[k];
@@ -72,7 +80,7 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
     const column = (j) => T().slice(4 * j, 4 * j + 3);
     const origin = () => T().slice(12, 15);
     const place = () => {
-      const long = (kind ? RING : ARROW) / perMetre(origin());
+      const long = kind ? RING / perMetre(origin()) : arrowFrom(origin(), column(k));
       const [u, v] = [column((k + 1) % 3), column((k + 2) % 3)];
       const way = kind ? u.map((x, i) => -(x + v[i]) * Math.SQRT1_2) : column(k); // rings on the far side of the arrows
       return origin().map((x, i) => x + long * way[i]);

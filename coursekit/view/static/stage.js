@@ -106,6 +106,8 @@ function canvasRenderer(MeshCat) {
     render(scene, camera) {
       const gl = sharedRenderer(MeshCat);
       const w = canvas.width, h = canvas.height;
+      camera.layers.set(0);
+      camera.layers.enable(facade.coarseness < 1 ? QUICK_LAYER : FULL_LAYER);
       gl.shadowMap.enabled = facade.shadows;
       // few pixels means that frames are slow and that a full picture follows: the shadow waits for that
       const shadowNow = facade.shadows && facade.shadowsStale && facade.coarseness === 1;
@@ -186,6 +188,9 @@ function plainMaterial(THREE, material) {
   return plain;
 }
 
+// Where a thing has two looks, one is drawn in full frames alone and one in those of few pixels.
+const FULL_LAYER = 1, QUICK_LAYER = 2;
+
 const QUICK = 20; // milliseconds: 30 frames a second leave 33, and the page wants some of them
 
 function makeStage(MeshCat, pane, quality) {
@@ -223,13 +228,16 @@ function makeStage(MeshCat, pane, quality) {
   let request = 0, sharpen = 0, dead = false, lastMotion = -1e9;
   // While something moves: the most pixels (as a part of each side) with which a frame takes less than QUICK.
   const levels = { auto: [1, 0.5, 0.35], low: [0.5, 0.35], high: [1] }[quality];
-  const cost = new Map(); // milliseconds of a frame at each level, as far as known
+  const cost = new Map(shared.cost); // milliseconds of a frame at each level, as far as known, also from another view
   const levelNow = () => {
     if (performance.now() - lastMotion > 150) return 1;
     return levels.find((level) => (cost.get(level) || 0) < QUICK) || levels.at(-1);
   };
   const learn = (level, took) => {
-    if (stage.frames < 3) return; // the first frames compile shaders
+    if (!shared.cost) { // the page's first frame compiles shaders: another one shows what a frame costs
+      shared.cost = cost;
+      return viewer.set_dirty();
+    }
     cost.set(level, cost.has(level) ? 0.7 * cost.get(level) + 0.3 * took : took);
     const finer = levels[levels.indexOf(level) - 1];
     if (finer < 1) cost.set(finer, 0.98 * cost.get(finer)); // so that it gets another chance

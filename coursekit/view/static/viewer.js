@@ -117,10 +117,14 @@ export default function () {
         slid = true;
         stage.moved();
       });
+      let late = null;
       const handles = makeHandles(MeshCat.THREE, viewer, pane, stage.renderer, model, follower, {
-        taken() {
+        taken(what) {
           player.load(null);
-          stage.moved();
+          if (what === "theta") return stage.moved();
+          handles.place();
+          handles.draw(); // the rest waits for the kernel's answer, which would wait for a frame of the target alone
+          late = late || setTimeout(stage.moved, 100);
         },
         redraw: () => viewer.set_dirty(),
       });
@@ -148,6 +152,8 @@ export default function () {
         else text.hidden = true;
         follower.compare();
         pose = floatsOf(model.get("pose"));
+        clearTimeout(late);
+        late = null;
         stage.moved();
       };
       const onMotion = (at) => {
