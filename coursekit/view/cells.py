@@ -21,8 +21,8 @@ def afterwards(act: Callable[[], None]) -> None:
     """Do this once the cell that runs now has shown what it gives; at once where no cell runs."""
     from IPython import get_ipython
 
-    shell = get_ipython()
-    if shell is None or running()[0] is None:
+    shell = get_ipython() if running()[0] else None
+    if shell is None:
         return act()
 
     def once(_result):

@@ -298,20 +298,10 @@ def _key_light(size, floor):
     reach = 0.95 * size
     camera = {"uuid": "shadow", "type": "OrthographicCamera", "left": -reach, "right": reach, "top": reach}
     camera |= {"bottom": -reach, "near": 0.3 * size, "far": 4.5 * size}
-    shadow = {
-        "bias": -0.0004,
-        "normalBias": 0.008 * size,
-        "radius": 5.0,
-        "mapSize": [2048, 2048],
-        "camera": camera,
-    }
-    light = {
-        "type": "DirectionalLight",
-        "color": 0xFFF4E8,
-        "intensity": 0.75,
-        "castShadow": True,
-        "shadow": shadow,
-    }
+    shadow = {"bias": -0.0004, "normalBias": 0.008 * size, "radius": 5.0, "mapSize": [2048, 2048]}
+    shadow |= {"camera": camera}
+    light = {"type": "DirectionalLight", "color": 0xFFF4E8, "intensity": 0.75}
+    light |= {"castShadow": True, "shadow": shadow}
     return document({**light, "matrix": _at(0.8 * size, -0.95 * size, 1.9 * size + floor)})
 
 

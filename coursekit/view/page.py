@@ -65,12 +65,8 @@ def to_html(shown: Panel | Viewer) -> str:
 
 
 def _state(slider):
-    return {
-        "kind": "slider",
-        "shape": 0,
-        "touched": 0,
-        **{name: getattr(slider, name) for name in _OF_A_SLIDER},
-    }
+    untouched = {"kind": "slider", "shape": 0, "touched": 0}
+    return untouched | {name: getattr(slider, name) for name in _OF_A_SLIDER}
 
 
 def _base64(data):

@@ -101,9 +101,7 @@ class Panel(ipywidgets.VBox):
         self._stale: list = []  # plots that wait until a drag ends
         self.live = False  # more values follow at once
         self.late = False  # and the scene waits for the last of them
-        named = [
-            control for control in (*controls, *below) if hasattr(control, "name")
-        ]  # stock widgets are not
+        named = [c for c in (*controls, *below) if hasattr(c, "name")]  # stock widgets are not
         self._controls = {control.name: control for control in named}
         for control in named:
             if self._controls[control.name] is not control:
@@ -120,11 +118,7 @@ class Panel(ipywidgets.VBox):
         top = layout.beside(column, self.viewer)
         self.formula = [formula] if formula else []
         self.children = [top, *self.formula, self.line, *layout.under(self.below)]
-        for output in (*self.formula, *self.below):
-            if hasattr(output, "has_time"):
-                self._stale.append(output)  # a plot takes longer than all the rest
-            elif hasattr(output, "refresh"):
-                output.refresh(values)
+        self._draw_below(values, lambda _plot: False)
         for control in self._widgets():
             self._listen(control)
         touchable = [widget for widget in self._widgets() if widget.has_trait("touched")]
@@ -191,13 +185,7 @@ class Panel(ipywidgets.VBox):
                 self.viewer.driven_by(self._drivers(values))
                 self.viewer.sync(self.scene, self.motion.frame if self.motion else None)
                 self.line.value = self._words(values)
-                for output in (*self.formula, *self.below):
-                    if live and hasattr(output, "has_time") and not output.has_time():
-                        if output not in self._stale:
-                            self._stale.append(output)
-                    elif hasattr(output, "refresh"):
-                        output.refresh(values)
-                        self._stale = [other for other in self._stale if other is not output]
+                self._draw_below(values, lambda plot: not live or plot.has_time())
             except Exception as error:
                 self.line.value = f"{type(error).__name__}: {error}"
                 raise
@@ -306,7 +294,7 @@ class Panel(ipywidgets.VBox):
         if widget.has_trait("touched"):
             widget.observe(self._answer, "touched")
         if widget.has_trait("live"):
-            widget.observe(self._drag_ended, "live")
+            widget.observe(lambda change: change.new or self._catch_up(), "live")
         if widget.has_trait("dark"):
             widget.observe(lambda _change: self.refresh(), "dark")
         if isinstance(widget, parts.Action) or getattr(widget, "clickable", False):
@@ -359,9 +347,15 @@ class Panel(ipywidgets.VBox):
         with self._silence():
             self.viewer.end()
 
-    def _drag_ended(self, change):
-        if not change.new:
-            self._catch_up()
+    def _draw_below(self, values, has_time):
+        """Plots and tables; a plot takes longer than all the rest and may have to wait."""
+        for output in (*self.formula, *self.below):
+            if hasattr(output, "refresh"):
+                self._stale = [other for other in self._stale if other is not output]
+                if hasattr(output, "has_time") and not has_time(output):
+                    self._stale.append(output)
+                else:
+                    output.refresh(values)
 
     def _catch_up(self):
         """Draw what had to wait."""

@@ -55,9 +55,8 @@ def png(scene: Scene, width: int = 720, height: int = 440, view: str = "home") -
     for thing in things:
         if thing[1].opacity < 1:
             _paint(canvas, near, eye, [thing], thing[1].opacity)
-    for xray in sorted(
-        {part.xray for _, part in solid} - {0}
-    ):  # what shines through, faintly, even where hidden
+    # what shines through, faintly, even where hidden
+    for xray in sorted({part.xray for _, part in solid} - {0}):
         _paint(canvas, nothing_near, eye, [thing for thing in solid if thing[1].xray == xray], xray)
     pixels = (np.clip(canvas, 0, 1) * 255).round().astype(np.uint8).reshape(eye.height, eye.width, 3)
     image = Image.fromarray(pixels).resize((width, height), Image.Resampling.BOX)
@@ -110,9 +109,8 @@ def _rasterise(eye, pixel, nearness, faces, both_sides=False):
     row, x = _runs(np.ceil(left).astype(int), np.floor(right).astype(int))
     face, y = face[row], y[row]
 
-    def weight(
-        px, py, qx, qy
-    ):  # how far a pixel is from the edge p q, as a part of the triangle's height there
+    # how far a pixel is from the edge p q, as a part of the triangle's height there
+    def weight(px, py, qx, qy):
         slope_x, slope_y = (py - qy) / area, (qx - px) / area
         return slope_x[face] * (x + 0.5) + slope_y[face] * (y + 0.5) - (slope_x * px + slope_y * py)[face]
 

@@ -126,9 +126,8 @@ def tube(points: ArrayLike, radius: float, segments: int = 8) -> Mesh:
     angle = np.linspace(0, 2 * np.pi, segments, endpoint=False)
     side = frame_along(tangent[0])[:3, 0]
     rings = []
-    for p, t in zip(
-        points, tangent, strict=True
-    ):  # carry one side vector along, so that the wire never twists
+    # carry one side vector along, so that the wire never twists
+    for p, t in zip(points, tangent, strict=True):
         side = side - (side @ t) * t
         side /= max(np.linalg.norm(side), 1e-12)
         rings.append(

@@ -75,13 +75,9 @@ class Viewer(anywidget.AnyWidget):
     drive = traitlets.Dict().tag(sync=True)  # how the page moves an arm by its sliders, see `driven_by`
     theta: traitlets.List = traitlets.List().tag(sync=True)  # where that arm is in `pose`
     handle = traitlets.Dict().tag(sync=True)  # the target that can be dragged, see `held_by`
-    dragged = traitlets.Dict().tag(
-        sync=True
-    )  # what a hand in the picture did: {"what", "values", "live", "count"}
+    dragged = traitlets.Dict().tag(sync=True)  # by a hand: {"what", "values", "live", "count"}
     heard = traitlets.Int(0).tag(sync=True)  # the count of the last of them that the kernel has taken over
-    controls: traitlets.List = traitlets.List().tag(
-        sync=True
-    )  # references to the models of a panel's controls
+    controls: traitlets.List = traitlets.List().tag(sync=True)  # references to models
     answers = traitlets.Int(0).tag(sync=True)  # counts what the kernel has answered, for pages that wait
     height = traitlets.Int(420).tag(sync=True)
     quality = traitlets.Enum(["auto", "high", "low"], "auto").tag(sync=True)
@@ -282,12 +278,9 @@ class Viewer(anywidget.AnyWidget):
 
 
 def mimebundle(widget: ipywidgets.Widget, viewer: Viewer) -> tuple[dict, dict]:
-    """What a notebook stores for a widget: itself, a picture for readers without a kernel, and one line.
-
-    The page gets the picture before it opens a view: it is what that shows first.
-    """
+    """What a notebook stores for a widget: itself, a picture for readers without a kernel, and one line."""
     text, picture = repr(widget), png(viewer.scene, 640, viewer.height)
-    viewer.send({"type": "png"}, buffers=[picture])
+    viewer.send({"type": "png"}, buffers=[picture])  # before there is a view, which shows it at first
     data = {
         "text/plain": text,
         "image/png": picture,

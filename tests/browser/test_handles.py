@@ -105,6 +105,27 @@ def test_the_arrows_of_the_target_are_in_the_picture_at_first(opened):
             assert (inside >= 12).all() and (inside <= [pane["width"] - 12, pane["height"] - 12]).all(), arrow
 
 
+# How many triangles a frame draws at a part of the pixels, and the layers of a ghost's meshes that it draws.
+DRAWN = """(coarseness) => {
+    const { stage, viewer, page } = document.querySelector(".ck-viewer").coursekit;
+    stage.renderer.coarseness = coarseness;
+    stage.renderer.render(viewer.scene, viewer.camera);
+    const { triangles } = page.renderer.info.render, layers = new Set();
+    viewer.scene_tree.find(["ck", "branch0", "6"]).object.traverse((part) => {
+      if (part.isMesh && part.layers.test(viewer.camera.layers)) layers.add(part.layers.mask);
+    });
+    return [triangles, [...layers]];
+}"""
+
+
+def test_ghosts_have_fewer_triangles_in_quick_frames(opened):
+    explorer = opened("inverse", robots.kuka_kr6(), "view.explore_inverse()")
+    quick, quick_layers = explorer.page.evaluate(DRAWN, 0.35)
+    full, full_layers = explorer.page.evaluate(DRAWN, 1)
+    assert quick < full / 2
+    assert len(quick_layers) == len(full_layers) == 1 and quick_layers != full_layers
+
+
 def test_a_handle_takes_keys(opened):
     explorer = opened("inverse", robots.kuka_kr6(), "view.explore_inverse()")
     before = target(explorer)

@@ -76,9 +76,8 @@ class _Jacobians(yours.Jacobians, Explorer):
         super().__init__(robot, mine)
         self.poses = poses
         goal = robot.home
-        if (
-            singularity.sigma_min(robot, goal) < 0.05
-        ):  # a goal that is singular itself shows nothing but slowness
+        # a goal that is singular itself shows nothing but slowness
+        if singularity.sigma_min(robot, goal) < 0.05:
             goal = np.clip(goal + 0.5, robot.q_min, robot.q_max)
         self.near = _nearly_singular(robot)
         self.pose = pose_sliders(robot.fk(goal), robot)

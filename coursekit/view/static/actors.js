@@ -57,8 +57,8 @@ function makeGhosts(THREE, viewer) {
   let drawn = [];
   const coarse = new WeakMap(); // of geometries
   const coarsely = (geometry) => {
-    const { points } = geometry.parameters || {};
-    if (!coarse.has(geometry)) coarse.set(geometry, geometry.type === "LatheGeometry" ? new THREE.LatheGeometry(points, 8) : geometry);
+    if (geometry.type !== "LatheGeometry") return geometry;
+    if (!coarse.has(geometry)) coarse.set(geometry, new THREE.LatheGeometry(geometry.parameters.points, 8));
     return coarse.get(geometry);
   };
   const materials = (color, opacity) => {
@@ -84,9 +84,8 @@ function makeGhosts(THREE, viewer) {
           if (!part.isMesh) return;
           part.updateMatrix();
           passes.forEach((material, pass) => {
-            const isQuick = pass === 2;
-            const mesh = new THREE.Mesh(isQuick ? coarsely(part.geometry) : part.geometry, material);
-            mesh.layers.set(isQuick ? QUICK_LAYER : FULL_LAYER);
+            const mesh = new THREE.Mesh(pass === 2 ? coarsely(part.geometry) : part.geometry, material);
+            mesh.layers.set(pass === 2 ? QUICK_LAYER : FULL_LAYER);
             mesh.matrixAutoUpdate = false;
             mesh.matrix.copy(part.matrix);
             mesh.renderOrder = 10 + 4 * g + pass;

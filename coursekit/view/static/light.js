@@ -36,15 +36,13 @@ async function studioLight(THREE) {
       for (let n = 0; n < points.length; n += 5) {
         const near = ((way[0] * points[n] + way[1] * points[n + 1] + way[2] * points[n + 2]) / long - 1) / blur ** 2;
         if (near < -9) continue;
-        const part = points[n + 3] * Math.exp(near);
-        covered += part;
-        lit += points[n + 4] * part;
+        covered += points[n + 3] * Math.exp(near);
+        lit += points[n + 4] * points[n + 3] * Math.exp(near);
       }
       const colour = WALLS.map((wall) => wall * (1 - covered) + lit), power = Math.ceil(Math.log2(Math.max(...colour)));
       const at = side * (2 * 256 + 2 * face * level + face * Math.floor(k / 3) + y) + 3 * (256 - 2 * face) + face * (k % 3) + x;
       pixels.set([...colour.map((c) => (255 * c) / 2 ** power), power + 128], 4 * at); // red, green, blue and a power of two for all
     }
   }
-  return Object.assign(new THREE.DataTexture(pixels, side, side), {
-    mapping: THREE.CubeUVReflectionMapping, encoding: THREE.RGBEEncoding, needsUpdate: true });
+  return Object.assign(new THREE.DataTexture(pixels, side, side), { mapping: THREE.CubeUVReflectionMapping, encoding: THREE.RGBEEncoding, needsUpdate: true });
 }

@@ -123,10 +123,9 @@ function canvasRenderer(MeshCat) {
       gl.render(scene, camera);
     },
     show() { // a full frame
-      const gl = sharedRenderer(MeshCat), w = canvas.width, h = canvas.height;
-      gl.getSize(inUse);
+      const { domElement } = sharedRenderer(MeshCat), w = canvas.width, h = canvas.height;
       context.clearRect(0, 0, w, h);
-      context.drawImage(gl.domElement, 0, inUse.y - h, w, h, 0, 0, w, h);
+      context.drawImage(domElement, 0, domElement.height - h, w, h, 0, 0, w, h);
     },
     dispose() {},
   };
@@ -188,9 +187,7 @@ function plainMaterial(THREE, material) {
   return plain;
 }
 
-// Where a thing has two looks, one is drawn in full frames alone and one in those of few pixels.
-const FULL_LAYER = 1, QUICK_LAYER = 2;
-
+const FULL_LAYER = 1, QUICK_LAYER = 2; // for things of two looks: of full frames and of those of few pixels
 const QUICK = 20; // milliseconds: 30 frames a second leave 33, and the page wants some of them
 
 function makeStage(MeshCat, pane, quality) {

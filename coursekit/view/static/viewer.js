@@ -14,9 +14,8 @@ export default function () {
       content.keys.forEach((key, i) => commands.set(key, bytesOf(buffers[i]).slice()));
       for (const view of views) view.change(content.delete, buffers.map(bytesOf));
     }
-    if (content.type !== "png") return;
-    if (!views.size) first = bytesOf(buffers[0]).slice();
-    for (const view of views) view.picture(bytesOf(buffers[0]));
+    if (content.type === "png" && !views.size) first = bytesOf(buffers[0]).slice();
+    if (content.type === "png") for (const view of views) view.picture(bytesOf(buffers[0]));
   }
 
   return {
