@@ -45,7 +45,7 @@ def conventions(explorer):
 
 def screws(explorer):
     explorer.choose("joint", "joint 3")
-    explorer.slide("turn this joint", ["PageUp"])
+    explorer.slide("turn joint", ["PageUp"])
     explorer.assert_arm_stands_at(np.radians([0, 0, 10, 0, 0, 0]))
     assert f"column 3 of S = {text.row(explorer.robot.S[:, 2])}" in explorer.words()
 

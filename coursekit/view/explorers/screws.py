@@ -50,7 +50,7 @@ class _Screws(Explorer):
     def __init__(self, robot, mine):
         super().__init__(robot, mine)
         self.frames = _frames(robot)
-        self.turn = Slider("turn", 0.0, -np.pi, np.pi, unit="deg", label="turn this joint")
+        self.turn = Slider("turn", 0.0, -np.pi, np.pi, unit="deg", label="turn joint")
         self.unit = "deg"  # of that slider, which serves every joint in turn
         self.origins = robot.link_frames(np.zeros(robot.n))[:, :3, 3]
         self.directions, self.points = axes.directions_of(robot.S), axes.points_on(robot.S)
@@ -64,7 +64,7 @@ class _Screws(Explorer):
         return [
             Choice("joint", joints, start="joint 2" if self.robot.n > 1 else "joint 1"),
             Choice("frame", self.frames, label="seen from"),
-            Slider("slide", 0.0, -0.3, 0.3, unit="mm", label="q along the axis"),
+            Slider("slide", 0.0, -0.3, 0.3, unit="mm", label="slide q"),
             self.turn,
         ]
 
@@ -81,7 +81,7 @@ class _Screws(Explorer):
             self.unit = unit
             low, high = self.robot.q_min[i], self.robot.q_max[i]
             ends = (low if np.isfinite(low) else -1.0, high if np.isfinite(high) else 1.0)
-            self.turn.label = "slide this joint" if unit == "mm" else "turn this joint"
+            self.turn.label = "slide joint" if unit == "mm" else "turn joint"
             self.turn.fit(0.0, *(ends if unit == "mm" else (-np.pi, np.pi)), unit)
 
     def update(self, values):
