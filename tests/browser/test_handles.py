@@ -111,7 +111,9 @@ DRAWN = """(coarseness) => {
     stage.renderer.coarseness = coarseness;
     stage.renderer.render(viewer.scene, viewer.camera);
     const { triangles } = page.renderer.info.render, layers = new Set();
-    viewer.scene_tree.find(["ck", "branch0", "6"]).object.traverse((part) => {
+    const names = Object.keys(viewer.scene_tree.find(["ck"]).children);
+    const ghost = names.find((name) => name.startsWith("branch"));
+    viewer.scene_tree.find(["ck", ghost, "6"]).object.traverse((part) => {
       if (part.isMesh && part.layers.test(viewer.camera.layers)) layers.add(part.layers.mask);
     });
     return [triangles, [...layers]];
