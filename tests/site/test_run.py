@@ -227,6 +227,8 @@ def test_the_page_that_loads_says_how_far_it_is(browser, run, served):
         said = []
         visit.page.expose_function("heard", lambda text: said.append(text))  # Playwright takes no builtin
         visit.page.add_init_script(WATCH)
+        # Firefox asks the reader whether to keep the store, and the reader may never answer
+        visit.page.add_init_script("navigator.storage.persist = () => new Promise(() => {})")
         visit.open("run/start.html?path=" + NAME)
         visit.page.wait_for_function("() => location.pathname.includes('/run/lab/')", timeout=300_000)
         shares = [float(text.split("(")[1].split(" %")[0]) for text in said if "%" in text]

@@ -58,7 +58,6 @@
       const kept = await worker();
       if (kept) {
         await load(await (await fetch("files.json", { cache: "no-cache" })).json());
-        if (navigator.storage && navigator.storage.persist) await navigator.storage.persist();
       } else {
         say("This browser keeps nothing here (a private window?): the course runs, but is loaded anew each time, and what "
           + "you write may be gone when the window is closed");

@@ -300,11 +300,16 @@
       await app.commands.execute("docmanager:open", { path: last });
     }
 
+    // Firefox asks the reader, who may not answer: nothing waits for it.
+    if (navigator.storage && navigator.storage.persist) navigator.storage.persist().catch(() => {});
+
     app.restored.then(() => {
       app.shell.currentChanged.connect(remember);
       remember();
       watchStart();
-      return guarded(reopen).then(() => guarded(lookForNews));
+      return guarded(reopen).then(() => guarded(lookForNews)).then(() => {
+        if (innerWidth < 700) app.shell.collapseLeft(); // a phone has no room for the list of files
+      });
     });
     window.coursekitWork = { zip, unzip }; // for tests
   }
