@@ -13,7 +13,6 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"
 
 from coursekit.classroom.lab import private_folders  # noqa: E402
-from tests.browser.lab import CHROMIUM_FLAGS, chromium  # noqa: E402
 from tests.needs import absent, needed  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -54,6 +53,9 @@ def pytest_collection_modifyitems(items):
 @pytest.fixture(scope="session")
 def browser():
     """One Chromium for all tests of a worker: two of Playwright's loops do not go into one process."""
+    # not at the top: the browser's Python reads this file, too, and has not what a lab needs
+    from tests.browser.lab import CHROMIUM_FLAGS, chromium
+
     sync_playwright = needed("playwright.sync_api").sync_playwright
     if not chromium():
         absent("no Chromium on the PATH (set CHROMIUM to its path)")

@@ -28,5 +28,5 @@ for path, text in json.loads(documents):
         line = {"notebook": path, "id": cell["id"], "wanted": wanted, "got": got.getvalue()}
         lines.append(json.dumps({**line, "error": repr(failed) if failed else None}))
 `);
-fs.writeFileSync(1, `${python.globals.get("lines").toJs().join("\n")}\n`);
-process.exit(0);
+// a pipe takes so much at a time: node waits until it has taken all
+process.stdout.write(`${python.globals.get("lines").toJs().join("\n")}\n`, () => process.exit(0));
