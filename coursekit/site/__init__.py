@@ -6,6 +6,7 @@
     pages.py     these notebooks as pages, and the index
     lite.py      JupyterLab with Python in the browser, if Pyodide's files are given
     wheels.py    the packages of that Python, and the check that none is missing
+    compiled.py  what of them is compiled, so that it starts sooner
     reference.py the package, name by name
     notices.py   the licences of what is shipped
     tools.py     where the packages of requirements.txt lie, which only the building needs

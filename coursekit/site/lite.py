@@ -13,7 +13,7 @@ import tempfile
 from importlib import util
 from pathlib import Path
 
-from . import tools, wheels
+from . import compiled, tools, wheels
 
 # JupyterLab's parts that the explorers need, as this environment has them.
 _EXTENSIONS = ("@jupyter-widgets/jupyterlab-manager", "@jupyterlite/pyodide-kernel-extension", "anywidget")
@@ -74,6 +74,7 @@ def write(course: Path, pyodide: Path, version: str, title: str, out: Path) -> N
         packages = wheels.write(pyodide, pypi, course, version, python)
         notebooks = sorted((course / "notebooks").glob("*.ipynb"))
         wheels.check_imports(packages, python / packages["coursekit"]["file_name"], notebooks)
+        compiled.where_node_is(python, wheels.AT_ONCE)
         for name in _EXTENSIONS:
             leave = shutil.ignore_patterns("*.map", "pypi")
             shutil.copytree(tools.extension(name), work / "labextensions" / name, ignore=leave)
@@ -107,7 +108,10 @@ def _settings(lite: Path, title: str) -> None:
     text = json.dumps({"jupyter-lite-schema-version": 0, "jupyter-config-data": config}, indent=1)
     (lite / "jupyter-lite.json").write_text(text, encoding="utf-8")
     quiet = {"fetchNews": "false", "checkForUpdates": False}
-    overrides = {"@jupyterlab/apputils-extension:notification": quiet}
+    overrides = {
+        "@jupyterlab/apputils-extension:notification": quiet,
+        "@jupyterlab/apputils-extension:themes": {"adaptive-theme": True},  # light or dark as the system
+    }
     (lite / "overrides.json").write_text(json.dumps(overrides), encoding="utf-8")
 
 
