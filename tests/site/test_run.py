@@ -111,7 +111,10 @@ def work(browser, run, served, tmp_path_factory):
         student.context.set_offline(True)
         student.page.reload(wait_until="domcontentloaded")
         student.wait()
-        told["offline"] = student.source("ex-dh-transform")  # and Python has started
+        told["offline"] = student.source("ex-dh-transform")
+        student.run("setup")
+        student.run("ex-dh-transform")
+        told["right offline"] = student.run("check-dh-transform")
     return told
 
 
@@ -132,6 +135,7 @@ def test_nothing_is_asked_of_another_host(work):
 
 def test_from_the_second_time_on_no_network_is_needed(work):
     assert work["offline"] == RIGHT
+    assert work["right offline"].startswith("✓ dh_transform: right on")
 
 
 def test_the_bar_says_where_the_work_is(work):
