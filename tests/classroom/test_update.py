@@ -384,7 +384,7 @@ def edited(notebook, edits):
     return wrote
 
 
-@settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])  # the machine may be busy
+@settings(suppress_health_check=[HealthCheck.too_slow])  # the machine may be busy
 @given(
     st.lists(st.sampled_from(NAMES), unique=True),
     st.lists(st.sampled_from(NAMES), unique=True),
