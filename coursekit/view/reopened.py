@@ -11,6 +11,7 @@ import asyncio
 import functools
 import html
 import re
+import threading
 from typing import Any
 
 import numpy as np
@@ -30,6 +31,7 @@ EXPLORERS = {  # title -> function of coursekit.view
 }
 _LINE = re.compile(r"(?P<title>Explorer of [^:]+): (?P<name>[^:]+): joints \((?P<joints>[^()]*)\)")
 HINT = "No kernel runs here: sliders move the arm; run the notebook for frames, numbers and plots."
+_ONE_AT_A_TIME = threading.Lock()  # a new explorer closes the one of its name, as when a cell is run again
 
 
 @functools.lru_cache(maxsize=32)
@@ -48,13 +50,14 @@ def page_of(line: str) -> str | None:
     robot = arms[found["name"]]
     per_si = np.where(np.array(robot.joint_types) == "revolute", 180 / np.pi, 1000)
     shown = np.array([float(number) for number in re.findall(r"-?\d+\.\d+", found["joints"])])
-    panel = getattr(view, EXPLORERS[found["title"]])(robot)
-    try:
-        if "theta" in panel.values and shown.shape == (robot.n,):
-            panel.set(theta=np.clip(shown / per_si, robot.q_min, robot.q_max))
-        return view.to_html(panel)
-    finally:
-        panel.close()
+    with _ONE_AT_A_TIME:
+        panel = getattr(view, EXPLORERS[found["title"]])(robot)
+        try:
+            if "theta" in panel.values and shown.shape == (robot.n,):
+                panel.set(theta=np.clip(shown / per_si, robot.q_min, robot.q_max))
+            return view.to_html(panel)
+        finally:
+            panel.close()
 
 
 # -- for JupyterLab
