@@ -61,9 +61,13 @@ def public_functions():
                     yield f"{name}.{said}", one, asked
 
 
-@pytest.mark.parametrize("_, function, asked", [*public_functions()], ids=lambda one: str(one)[:40])
-def test_the_parameters_are_named(_, function, asked):
+PUBLIC = {name: (function, asked) for name, function, asked in public_functions()}
+
+
+@pytest.mark.parametrize("name", PUBLIC)
+def test_the_parameters_are_named(name):
     """Three or more in a list as numpydoc has it; fewer in the sentence itself, with shape and unit."""
+    function, asked = PUBLIC[name]
     text = inspect.getdoc(function)
     if len(asked) > 2:
         _, _, listed = text.partition("Parameters\n----------\n")
