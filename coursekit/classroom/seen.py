@@ -24,11 +24,14 @@ OPENERS = {
         "explore_singularities(robots.kuka_kr6(), {mine})",
     ),
     **dict.fromkeys(
-        ("jacobian_space", "jacobian_geometric", "jacobian_by_differences", "ellipsoid", "dls_step"),
+        (
+            *("jacobian_space", "jacobian_geometric", "jacobian_by_differences", "jacobian_column"),
+            *("transform_rate", "torques", "ellipsoid", "dls_step", "dls_loop"),
+        ),
         "explore_jacobians(robots.franka_panda(), {mine})",
     ),
     **dict.fromkeys(
-        ("tool_frames", "quaternion", "zyx", "inside", "largest_speed"),
+        ("tool_frames", "quaternion", "zyx", "angle_axis", "slerp", "inside", "largest_speed"),
         "explore_path(robots.abb_irb1200(), {mine})",
     ),
 }

@@ -84,6 +84,18 @@ def test_any_configuration_is_reached_again(theta, name):
     assert residual(solutions) < 1e-9
 
 
+@pytest.mark.parametrize("t5", [-5.960464477539063e-08, 3e-8, 1e-7, 1e-6, 1e-5])
+def test_a_stretched_arm_is_reached_where_the_hand_is_nearly_stretched_too(t5):
+    """Three parallel axes: the turn about them has lost digits, by which the arm may seem too short."""
+    ur5, turns = ALL["ur5"], np.linspace(-3, 3, 200)
+    for theta3 in (0.0, np.pi - 1e-9):
+        theta = np.zeros((len(turns), 6))
+        theta[:, 2], theta[:, 3], theta[:, 4] = theta3, turns, t5
+        solutions = ik.analytic(ur5, ur5.fk(theta))
+        assert solutions.exists.any(axis=-1).all()
+        assert residual(solutions) < 1e-9
+
+
 @pytest.mark.parametrize("shape", [(), (1,), (3, 1, 2)])
 @pytest.mark.parametrize("name, k, n", [("kuka_kr6", 8, 6), ("ur5", 8, 6), ("planar_2r", 2, 2)])
 def test_shapes(name, k, n, shape):

@@ -22,6 +22,7 @@ from .geometry import SixHinges, TwoHinges
 
 Direction = tuple[Number, Number, Number]  # (forward, up, side) in the frame of the arm
 
+DIGITS = 1e-15  # of a direction
 OFF_PLANE = 1e-9  # m; a planar arm reaches points nearer than this to its plane
 
 # Which root of a subproblem is which branch.
@@ -73,12 +74,13 @@ def elbow(g: SixHinges | TwoHinges, target: Pair, side: np.ndarray = ELBOW) -> t
     return unit(_dot(bent, target), _cross(bent, target)), t3
 
 
-def _wrist(g, axis6, axis5, free=lambda: (1.0, 0.0)):
+def _wrist(g, axis6, axis5, free=lambda: (1.0, 0.0), settle=lambda t4, doubt: t4):
     """Turns about axis 4, axis 5 and axis 6 that bring axes 6 and 5 to these directions.
 
     With b the angle from axis 4 to axis 6 about axis 5, axis 6 is (cos b, sin b sin t4, -sin b cos t4) along
     (axis 4, axis 5, their cross product). sin b comes from its two last components, not from cos b: near
-    b = 0 that keeps all digits. `free()` is the turn about axis 4 where b = 0 or pi leaves it open.
+    b = 0 that keeps all digits. `free()` is the turn about axis 4 where b = 0 or pi leaves it open, and
+    `settle` chooses among turns that cannot be told apart near there: about axis 4, and by how much (rad).
     """
     u, v = _along(g.wrist, axis6), _along(g.wrist, axis5)
     sin_b = np.sqrt(u[1] * u[1] + u[2] * u[2])
@@ -89,6 +91,7 @@ def _wrist(g, axis6, axis5, free=lambda: (1.0, 0.0)):
     if stretched.any():
         free_c, free_s = free()
         c4, s4 = np.where(stretched, free_c, c4), np.where(stretched, free_s, s4)
+    c4, s4 = settle((c4, s4), DIGITS / length)
     sin_b = WRIST * sin_b
     across, beside = turn((c4, -s4), v[1], v[2])
     t6 = across, u[0] * beside + sin_b * v[0]
@@ -99,7 +102,11 @@ def without_hand(
     g: SixHinges, target: Pair, axis6: Direction, axis5: Direction
 ) -> tuple[Pair, tuple[Pair, Pair, Pair]]:
     """Three parallel axes: the sum of joints 2, 3 and 4, joints 5 and 6, and where that leaves axis 4."""
-    t234, t5, t6 = _wrist(g, axis6, axis5, lambda: _free_hand(g, target))
+
+    def settle(t4, doubt):
+        return _signed(_within_reach(g, target, _signed(t4, g.axis4), doubt), g.axis4)
+
+    t234, t5, t6 = _wrist(g, axis6, axis5, lambda: _free_hand(g, target), settle)
     t234 = _signed(t234, g.axis4)  # about axis 4 -> about the side direction
     return _minus(target, turn(t234, *g.hand)), (t234, t5, t6)
 
@@ -111,6 +118,20 @@ def _free_hand(g, target):
     distance = np.clip(wanted, np.abs(P - hand), P + hand)
     c = 0.5 * (P * P + hand * hand - distance * distance)
     return _signed(swing(_dot(target, g.hand), _cross(g.hand, target), c, 1.0), g.axis4)
+
+
+def _within_reach(g, target, t234, doubt):
+    """t234, turned by less than the doubt about it where that brings axis 4 into reach of the elbow.
+
+    The hand then points as before: what it loses about axis 4 it gets back about axis 6.
+    """
+    hand = turn(t234, *g.hand)
+    axis4 = _minus(target, hand)
+    far, upper, fore = (np.sqrt(square(a)) for a in (axis4, g.upper, g.fore))
+    miss = np.clip(far, np.abs(upper - fore), upper + fore) - far
+    rate = -_cross(hand, axis4) / np.maximum(far, NOTHING)  # of far, as t234 turns
+    by = np.where(np.abs(miss) < doubt * np.abs(rate), miss / np.where(rate == 0, 1.0, rate), 0.0)
+    return turn((np.cos(by), np.sin(by)), *t234)
 
 
 def undo_joint1(t1: Pair, x: Direction) -> Direction:
