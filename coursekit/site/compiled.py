@@ -1,4 +1,4 @@
-"""Python's files compiled for the browser, where node is there to do it: half the work until the first cell.
+"""Python's files compiled for the browser, where node is there to do it: a third less work to the first cell.
 
 Only what a session imports is compiled, since compiled files are larger; `coursekit` stays as it is, so that
 its lines can be read. node runs the browser's own Python: what another version compiles is of no use to it.
@@ -20,6 +20,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 COURSE = "coursekit"
+TERSE = ("sympy", "mpmath")  # without docstrings, which are most of what is to be loaded of them
 # What the course imports later than at its own import, and the kernel at its start.
 ALSO = (
     *("pyodide_kernel", "piplite", "sympy", "matplotlib.pyplot", "mpl_toolkits.mplot3d"),
@@ -54,7 +55,7 @@ def rewrite(folder: str) -> None:
         if not used.keys() & files.keys():
             continue
         for file in used.keys() & files.keys():
-            files[f"{file}c"] = compiled(used[file])
+            files[f"{file}c"] = compiled(used[file], file.partition("/")[0] in TERSE)
             del files[file]
         with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as wheel:
             for file, data in sorted(files.items()):
@@ -82,10 +83,11 @@ def imported() -> dict[str, Path]:
     }
 
 
-def compiled(path: Path) -> bytes:
+def compiled(path: Path, terse: bool = False) -> bytes:
     """The compiled file of a file, which Python takes without looking for the file itself."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "one.pyc"
         unchecked = py_compile.PycInvalidationMode.UNCHECKED_HASH
-        py_compile.compile(str(path), str(out), doraise=True, invalidation_mode=unchecked)
+        level = 2 if terse else 0
+        py_compile.compile(str(path), str(out), doraise=True, optimize=level, invalidation_mode=unchecked)
         return out.read_bytes()

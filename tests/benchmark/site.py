@@ -5,7 +5,7 @@
 SITE is a folder that `coursekit site SITE --pyodide FOLDER` wrote. The same notebook is opened by both, in
 turn, each time in a fresh browser profile; seconds count from the address that is opened (JupyterLab's server
 runs already), CPU seconds are those of all processes of browser, server and kernel until then. On a busy
-included: what Chromium offers slows a page but not its workers. The test command does not read this.
+machine the seconds say little. With --slow 4 all of them run a quarter of the time, Python's workers
 included: what Chromium itself offers slows a page but not its workers. The test command does not read this.
 """
 
