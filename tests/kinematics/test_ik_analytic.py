@@ -76,7 +76,7 @@ def test_round_trip_and_residual(name, variant):
 
 
 @given(st.tuples(*[st.floats(-3.14, 3.14)] * 6), st.sampled_from(sorted(SIX.values())))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 def test_any_configuration_is_reached_again(theta, name):
     robot = ALL[name]
     solutions = ik.analytic(robot, robot.fk(theta))

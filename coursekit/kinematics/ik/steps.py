@@ -17,7 +17,7 @@ pose), of length 1 where a step makes no difference.
 
 import numpy as np
 
-from ..subproblems import NOTHING, Number, Pair, angle, swing, turn, undo, unit
+from ..subproblems import EDGE, NOTHING, Number, Pair, angle, swing, turn, undo, unit
 from .geometry import SixHinges, TwoHinges
 
 Direction = tuple[Number, Number, Number]  # (forward, up, side) in the frame of the arm
@@ -91,7 +91,8 @@ def _wrist(g, axis6, axis5, free=lambda: (1.0, 0.0), settle=lambda t4, doubt: t4
     if stretched.any():
         free_c, free_s = free()
         c4, s4 = np.where(stretched, free_c, c4), np.where(stretched, free_s, s4)
-    c4, s4 = settle((c4, s4), DIGITS / length)
+    if (sin_b < DIGITS / EDGE).any():  # elsewhere the edge of the reach is wider than the doubt
+        c4, s4 = settle((c4, s4), DIGITS / length)
     sin_b = WRIST * sin_b
     across, beside = turn((c4, -s4), v[1], v[2])
     t6 = across, u[0] * beside + sin_b * v[0]
@@ -131,7 +132,7 @@ def _within_reach(g, target, t234, doubt):
     miss = np.clip(far, np.abs(upper - fore), upper + fore) - far
     rate = -_cross(hand, axis4) / np.maximum(far, NOTHING)  # of far, as t234 turns
     by = np.where(np.abs(miss) < doubt * np.abs(rate), miss / np.where(rate == 0, 1.0, rate), 0.0)
-    return turn((np.cos(by), np.sin(by)), *t234)
+    return turn((np.cos(by), np.sin(by)), *t234) if by.any() else t234
 
 
 def undo_joint1(t1: Pair, x: Direction) -> Direction:
