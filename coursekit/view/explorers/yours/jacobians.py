@@ -57,7 +57,7 @@ class Jacobians(Explorer):
             mine = self.mine.ask(name, axes, np.cross(axes, in_space[3:].T), tool)
         elif name in ("jacobian_column", "transform_rate"):
             by_joint = self._by_column if name == "jacobian_column" else self._by_rate
-            mine = np.array([by_joint(theta, i) for i in range(robot.n)]).T
+            mine = np.array(list(by_joint(theta, in_space))).T
         else:
             bound = 1e-6
             mine = self.mine.ask(name, robot.fk, theta, 1e-5)
@@ -83,24 +83,27 @@ class Jacobians(Explorer):
             f"velocity by {size(1000 * np.linalg.norm(v - right_v))} mm/s at 1 rad/s"
         )
 
-    def _by_column(self, theta, i):
-        """Column i along the base, by the student's column of J_b."""
-        kind, T = self.robot.joint_types[i], self.robot.fk(theta)
-        w, v = np.split(self.robot.jacobian_space(theta)[:, i], 2)
-        axis = (w, np.cross(w, v)) if kind == "revolute" else (v, np.zeros(3))
-        column = self.mine.ask("jacobian_column", kind, *axis, T)
-        return np.concatenate([T[:3, :3] @ column[:3], T[:3, :3] @ column[3:]])
+    def _by_column(self, theta, in_space):
+        """The columns along the base, by the student's column of J_b."""
+        T = self.robot.fk(theta)
+        for kind, screw in zip(self.robot.joint_types, in_space.T, strict=True):
+            w, v = np.split(screw, 2)
+            axis = (w, np.cross(w, v)) if kind == "revolute" else (v, np.zeros(3))
+            column = self.mine.ask("jacobian_column", kind, *axis, T)
+            yield np.concatenate([T[:3, :3] @ column[:3], T[:3, :3] @ column[3:]])
 
-    def _by_rate(self, theta, i):
-        """Column i along the base, by the student's rate of T = T_left e^[S]theta T_right."""
+    def _by_rate(self, theta, _in_space):
+        """The columns along the base, by the student's rate of T = T_left e^[S]theta T_right."""
         before = np.array([np.eye(4), *self.robot.displacements(theta)])
-        right = lie.inverse(before[i + 1]) @ self.robot.fk(theta)
-        return self.mine.ask("transform_rate", before[i], self.robot.S[:, i].copy(), theta[i], right)[1]
+        after = lie.inverse(before[1:]) @ self.robot.fk(theta)
+        for left, S, angle, right in zip(before, self.robot.S.T, theta, after, strict=False):
+            yield self.mine.ask("transform_rate", left, S.copy(), angle, right)[1]
 
     def _torques(self, sketch, theta):
         """What the joints must give for a force that the tool gives downwards, and a moment about y."""
         T, moment, force = self.robot.fk(theta), np.array([0, TWIST, 0]), np.array([0, 0, -LOAD])
         right = self.robot.jacobian_geometric(theta).T @ np.concatenate([moment, force])
+        units = ["N m" if kind == "revolute" else "N" for kind in self.robot.joint_types]
         load = f"for {LOAD:.0f} N downwards and {TWIST:.0f} N m about y"
         mine = self.mine.ask("torques", self.robot.jacobian_body(theta), T, moment, force)
         if mine.shape != right.shape:
@@ -108,10 +111,10 @@ class Jacobians(Explorer):
         sketch.arrow("force", T[:3, 3], 0.3 * self.scene.size * force / LOAD, f"{LOAD:.0f} N")
         off, k = np.abs(mine - right), int(np.abs(right).argmax())
         if off.max() <= ZERO * LOAD:
-            most = f"joint {k + 1} gives most, {text.number(right[k], 1)}"
-            return f"{load} every torque agrees, below 1e-9; {most} N m"
+            most = f"joint {k + 1} gives most, {text.number(right[k], 1)} {units[k]}"
+            return f"{load} every torque agrees, below 1e-9; {most}"
         i = int(np.flatnonzero(off > ZERO * LOAD)[0])
-        told = f"{text.number(mine[i], 1)} N m, the right one is {text.number(right[i], 1)}"
+        told = f"{text.number(mine[i], 1)} {units[i]}, the right one is {text.number(right[i], 1)}"
         return f"{load} joint {i + 1} gives {told}"
 
     def _ellipsoids(self, sketch, values):
