@@ -38,16 +38,23 @@ def notebook(lab, browser):
     context.close()
 
 
+def explorer_in(notebook, request, name, robot, line):
+    code = "import numpy as np\nfrom coursekit import robots, view"
+    written = notebook.lab.write(f"{request.node.name}.ipynb", code, f"panel = {line}\npanel")
+    notebook.open(written)
+    notebook.run_all()
+    notebook.wait_view()
+    return Explorer(notebook, name, robot)
+
+
 @pytest.fixture
-def opened(notebook, lab, request):
+def opened(notebook, request):
     """Function: the explorer that this line of code opens, run and at rest."""
-
-    def run(name, robot, line):
-        code = "import numpy as np\nfrom coursekit import robots, view"
-        notebook.open(lab.write(f"{request.node.name}.ipynb", code, f"panel = {line}\npanel"))
-        notebook.run_all()
-        notebook.wait_view()
-        return Explorer(notebook, name, robot)
-
-    yield run
+    yield lambda name, robot, line: explorer_in(notebook, request, name, robot, line)
     assert notebook.errors == []
+
+
+@pytest.fixture
+def opened_by_touch(open_page, request):
+    """The same on a screen that is touched."""
+    return lambda name, robot, line: explorer_in(open_page(has_touch=True), request, name, robot, line)

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from coursekit import ik, robots, rotations
-from tests.browser.explorer import Explorer
 
 pytestmark = pytest.mark.browser
 
@@ -183,16 +182,10 @@ def test_a_drag_beside_the_arm_turns_the_picture(opened):
     np.testing.assert_array_equal(explorer.values(), theta)
 
 
-def test_a_finger_moves_the_target(open_page, lab):
-    notebook = open_page(has_touch=True)
-    notebook.open(
-        lab.write("finger.ipynb", "from coursekit import view", "panel = view.explore_inverse()\npanel")
-    )
-    notebook.run_all()
-    notebook.wait_view()
-    explorer = Explorer(notebook, "inverse", robots.kuka_kr6())
+def test_a_finger_moves_the_target(opened_by_touch):
+    explorer = opened_by_touch("inverse", robots.kuka_kr6(), "view.explore_inverse()")
     before, start = target(explorer), centre(explorer, "move {d} along its x")  # which points downwards
-    session = notebook.page.context.new_cdp_session(notebook.page)
+    session = explorer.page.context.new_cdp_session(explorer.page)
     for kind, by in (
         ("touchStart", 0),
         ("touchMove", 15),
@@ -202,9 +195,9 @@ def test_a_finger_moves_the_target(open_page, lab):
     ):
         points = [] if by is None else [{"x": float(start[0]), "y": float(start[1] + by)}]
         session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
-        notebook.page.wait_for_timeout(60)
+        explorer.page.wait_for_timeout(60)
     explorer.settle()
     moved = before[:3, :3].T @ (target(explorer)[:3, 3] - before[:3, 3])
     assert moved[0] > 0.02 and np.abs(moved[1:]).max() < 1e-6
     assert_all_solutions_are_at(explorer, target(explorer))
-    assert notebook.errors == []
+    assert explorer.notebook.errors == []

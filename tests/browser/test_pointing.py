@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from coursekit import ik, robots
-from tests.browser.explorer import Explorer
 
 pytestmark = pytest.mark.browser
 
@@ -137,18 +136,12 @@ def test_a_small_figure_chooses_its_solution_and_shows_it(opened):
     assert figures.nth(other).get_attribute("aria-pressed") == "true"
 
 
-def test_a_finger_points_and_no_kernel_is_needed(open_page, lab):
-    notebook = open_page(has_touch=True)
-    notebook.open(
-        lab.write("tap.ipynb", "from coursekit import view", "panel = view.explore_screws()\npanel")
-    )
-    notebook.run_all()
-    notebook.wait_view()
-    explorer = Explorer(notebook, "screws", KR6)
-    notebook.page.evaluate(
+def test_a_finger_points_and_no_kernel_is_needed(opened_by_touch):
+    explorer = opened_by_touch("screws", KR6, "view.explore_screws()")
+    explorer.page.evaluate(
         "() => window.jupyterapp.shell.currentWidget.context.sessionContext.session.kernel.shutdown()"
     )
-    notebook.page.wait_for_timeout(1000)
+    explorer.page.wait_for_timeout(1000)
     part(explorer, "S₆").tap()
     assert seen(explorer, "/ck/screws/6/w", "/ck/screws/5/w") == ["/ck/screws/6/w"]
     assert meaning(explorer).startswith("column 6 of S")

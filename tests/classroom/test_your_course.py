@@ -9,7 +9,6 @@ import shutil
 import subprocess
 import sys
 from datetime import datetime
-from importlib.util import find_spec
 
 import pytest
 
@@ -21,6 +20,7 @@ from coursekit.classroom.check import diagnose
 from coursekit.classroom.course import course_at, course_here, the_course
 from coursekit.classroom.your_course import read
 from coursekit.commands import COMMANDS
+from tests import needs
 from tests.classroom.small import ROOT, records
 
 STEM = "01_first_arm"
@@ -618,8 +618,7 @@ def test_study_and_lab_open_the_courses_own_folders(folder, split, monkeypatch):
 
 
 def test_the_pages_of_a_split_course_hold_no_solution(split, tmp_path):
-    if not find_spec("jupyter_server_mathjax"):
-        (pytest.fail if os.environ.get("CI") == "true" else pytest.skip)("coursekit/site/requirements.txt")
+    needs.what_builds_the_site()
     assert main(["site", str(tmp_path / "site"), "--course", str(split.notebooks)]) == 0
     pages = list((tmp_path / "site").rglob("*.html"))
     assert any("Where is the tip?" in page.read_text("utf-8") for page in pages)

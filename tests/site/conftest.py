@@ -5,13 +5,12 @@ reason; with CI=true they fail instead.
 """
 
 import os
-from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 
 from coursekit import site
-from tests.needs import absent
+from tests import needs
 from tests.site.pyodide import Unavailable, take
 from tests.site.server import Served
 
@@ -33,8 +32,7 @@ def pyodide(pytestconfig):
 @pytest.fixture(scope="session")
 def pages(request, tmp_path_factory):
     """The folder of a site; with what runs in the browser if Pyodide's files are here, or must be (in CI)."""
-    if not find_spec("jupyter_server_mathjax") or not find_spec("jupyterlite_core"):
-        absent(f"the site's packages are not installed ({site.tools.INSTALL})")
+    needs.what_builds_the_site()
     out = tmp_path_factory.mktemp("site") / "out"
     try:
         files = request.getfixturevalue("pyodide")

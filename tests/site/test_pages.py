@@ -4,7 +4,6 @@ import html
 import inspect
 import json
 import re
-from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -14,10 +13,10 @@ from coursekit import robots, site
 from coursekit.classroom.author import notebook
 from coursekit.classroom.course import Course, the_course
 from coursekit.site import notices, reference, shown
+from tests import needs
 from tests.browser.test_kinematics import link
 from tests.classroom import leaks
 from tests.classroom.small import COURSE
-from tests.needs import absent
 from tests.site.server import Visit
 
 NOTEBOOKS = [the_course().notebook(unit) for unit in the_course().units]
@@ -113,8 +112,7 @@ def test_it_never_overwrites(tmp_path):
 
 
 def test_a_notebook_that_fails_by_itself_is_told_and_nothing_is_written(tmp_path):
-    if not find_spec("jupyter_server_mathjax"):
-        absent(f"the site's packages are not installed ({site.tools.INSTALL})")
+    needs.what_builds_the_site()
     solved = notebook.read(COURSE.notebook("nb01"))
     broken = {"cell_type": "code", "id": "broken", "metadata": {}, "outputs": [], "execution_count": None}
     solved["cells"].append({**broken, "source": "1 / 0"})
