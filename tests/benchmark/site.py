@@ -166,9 +166,15 @@ def main():
     from playwright.sync_api import sync_playwright
 
     os.environ["PYTHONPATH"] = str(ROOT)  # the course that JupyterLab's kernel imports
-    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
-        lab = Lab(Path(folder))
-        shutil.copy(options.site / "run" / "files" / NAME, lab.notebooks / NAME)
+    notebook = options.site / "run" / "files" / NAME
+    if not notebook.is_file():
+        raise SystemExit(f"{notebook} is not there: build the site with --pyodide")
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        sync_playwright() as playwright,
+        contextlib.closing(Lab(Path(folder))) as lab,
+    ):
+        shutil.copy(notebook, lab.notebooks / NAME)
 
         def browser():
             return playwright.chromium.launch(executable_path=chromium(), args=list(CHROMIUM_FLAGS))
@@ -188,35 +194,32 @@ def main():
                 again = waits(visit, f"run/start.html?path={NAME}", lambda: server.server.sent - before)
                 return first, again
 
-        try:
-            names = ("jupyterlab", "jupyterlite-core", "jupyterlite-pyodide-kernel")
-            print(f"Pyodide {wheels.VERSION}, Python {platform.python_version()}")
-            print(f"{os.cpu_count()} cores, WebGL in software")
-            print(", ".join(f"{name} {version(name)}" for name in names))
-            print(f"load when it began {os.getloadavg()[0]:.1f}, slowed {options.slow} times\n")
-            told = {"JupyterLab": [], "in the browser, first visit": [], "in the browser, second visit": []}
-            with slowed(options.slow):
-                for _ in range(options.runs):
-                    told["JupyterLab"].append(native())
-                    for kind, one in zip(list(told)[1:], here(), strict=True):
-                        told[kind].append(one)
-            for kind, runs in told.items():
-                for what in runs[0]:
-                    seconds, cpu, sent = zip(*(one[what] for one in runs), strict=True)
-                    loaded = f"  {max(sent) / 1e6:.1f} MB" if max(sent) else ""
-                    show(f"{kind}: {what}", f"{spread(seconds)} s  {spread(cpu)} CPU s{loaded}")
-            if not options.no_memory:
-                with (
-                    Served(options.site) as server,
-                    contextlib.closing(browser()) as running,
-                    Visit(running, server.url) as visit,
-                ):
-                    waits(visit, f"run/start.html?path={NAME}")
-                    for row in memory(visit):
-                        show(*row)
-            print(f"load when it ended {os.getloadavg()[0]:.1f}")
-        finally:
-            lab.close()
+        names = ("jupyterlab", "jupyterlite-core", "jupyterlite-pyodide-kernel")
+        print(f"Pyodide {wheels.VERSION}, Python {platform.python_version()}")
+        print(f"{os.cpu_count()} cores, WebGL in software")
+        print(", ".join(f"{name} {version(name)}" for name in names))
+        print(f"load when it began {os.getloadavg()[0]:.1f}, slowed {options.slow} times\n")
+        told = {"JupyterLab": [], "in the browser, first visit": [], "in the browser, second visit": []}
+        with slowed(options.slow):
+            for _ in range(options.runs):
+                told["JupyterLab"].append(native())
+                for kind, one in zip(list(told)[1:], here(), strict=True):
+                    told[kind].append(one)
+        for kind, runs in told.items():
+            for what in runs[0]:
+                seconds, cpu, sent = zip(*(one[what] for one in runs), strict=True)
+                loaded = f"  {max(sent) / 1e6:.1f} MB" if max(sent) else ""
+                show(f"{kind}: {what}", f"{spread(seconds)} s  {spread(cpu)} CPU s{loaded}")
+        if not options.no_memory:
+            with (
+                Served(options.site) as server,
+                contextlib.closing(browser()) as running,
+                Visit(running, server.url) as visit,
+            ):
+                waits(visit, f"run/start.html?path={NAME}")
+                for row in memory(visit):
+                    show(*row)
+        print(f"load when it ended {os.getloadavg()[0]:.1f}")
 
 
 if __name__ == "__main__":
