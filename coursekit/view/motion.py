@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from coursekit.view.scene import Arm
+from coursekit.view.drawing import Arm
 
 
 @dataclass

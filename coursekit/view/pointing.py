@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike
 from coursekit.kinematics import dh, lie
 from coursekit.view import text
 from coursekit.view.controls import Control
-from coursekit.view.scene import Arm, Drawing, Scene
+from coursekit.view.drawing import Arm, Drawing
+from coursekit.view.scene import Scene
 
 # A part of a formula: text, or (text, word, what it says now). "^" raises what follows it.
 Piece = str | tuple[str, str, str]

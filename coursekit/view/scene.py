@@ -9,93 +9,18 @@ link's path is given where it stands at theta = 0, in the space frame, and moves
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
 
-from . import arm, camera, draw, stage, text
+from . import arm, camera, marks, stage, text
 from .chain import chain
+from .drawing import Arm, Drawing
 from .paint import Part, color
 
 STYLES = ("solid", "ghost", "skeleton")
-
-
-class Drawing:
-    """A handle to what is drawn at a path and below it."""
-
-    def __init__(self, scene: Scene, path: str) -> None:
-        self.scene, self.path = scene, path
-
-    def show(self, shown: bool = True) -> None:
-        """Show or hide it."""
-        self.scene.shown[self.path] = bool(shown)
-
-    def move(self, T: ArrayLike) -> None:
-        """Move it to T (4, 4) in the space frame, as a part of the pose: a motion moves it along."""
-        self.scene.placed.pop(self.path, None)
-        self.scene.moved[self.path] = np.array(T, float)
-
-    def remove(self) -> None:
-        """Take it away."""
-        self.scene.remove(self.path)
-
-
-class Arm(Drawing):
-    """The handle of a robot: where it stands (`theta`), its looks, the paths of its links."""
-
-    color: str | int = "ghost"  # of a ghost
-    links: np.ndarray | None = None  # (n, 4, 4): where a ghost's links stand, if not where its joints say
-
-    def __init__(self, scene: Scene, name: str, robot: Robot, style: str, source: str) -> None:
-        super().__init__(scene, f"/ck/{name}")
-        self.name, self.robot, self.style = name, robot, style
-        self.source = source  # name of the robot whose painted parts it shows
-
-    @property
-    def theta(self) -> np.ndarray:
-        """Joint values (n,), radians and metres."""
-        return self._theta
-
-    @theta.setter
-    def theta(self, theta: ArrayLike) -> None:
-        theta, robot = np.array(theta, float), self.robot
-        if theta.shape != (robot.n,):
-            raise ValueError(
-                f"{robot.name} has {robot.n} joints: theta must be ({robot.n},), got {theta.shape}"
-            )
-        self._theta = theta
-
-    def link(self, k: int) -> str:
-        """The path of link k: 0 is the base, n carries the tool. IndexError for any other."""
-        if not 0 <= k <= self.robot.n:
-            raise IndexError(f"{self.robot.name} has links 0 to {self.robot.n}, got {k}")
-        return f"{self.path}/{k}"
-
-    def look(self, solid: bool = True, skeleton: bool = False) -> None:
-        """Show or hide the paint and the skeleton."""
-        for k in range(self.robot.n + 1):
-            self.scene.shown[f"{self.path}/{k}/solid"] = bool(solid)
-            self.scene.shown[f"{self.path}/{k}/skeleton"] = bool(skeleton)
-
-    def axes(self, name: str, label: str, **look: Any) -> list[Drawing]:
-        """Draw the screw axes, each below its link's path as `name`; `look` as of `Scene.screw_axis`."""
-        drawn = []
-        for k, (S, joint) in enumerate(zip(self.robot.S.T, chain(self.robot).joints, strict=True), 1):
-            at, length = joint.reach_of(S, first=k == 1)
-            place: dict = {"label": f"{label}{k}", "at": at, "length": length}
-            drawn.append(self.scene.screw_axis(f"{self.link(k)}/{name}", S, **place, **look))
-        return drawn
-
-    def show_axes(self, shown: bool = True) -> None:
-        """Show or hide the screw axes at the links, labelled S1 to Sn."""
-        paths = [f"{self.link(k)}/axis" for k in range(1, self.robot.n + 1)]
-        if shown and paths[0] not in self.scene.parts:
-            self.axes("axis", "S")
-        for path in paths:
-            self.scene.shown[path] = bool(shown)
 
 
 class Scene:
@@ -209,7 +134,7 @@ class Scene:
         """A lettered frame, size metres long, at T (4, 4) in the frame of its parent, else where it was."""
         on_robot = any(_below(path, at) for at in self.moving)
         size = (0.1 if on_robot else 0.18) * self.size if size is None else size
-        drawing = self._draw(path, *draw.frame(size, letter))
+        drawing = self._draw(path, *marks.frame(size, letter))
         if T is not None:
             self.moved.pop(path, None)
             self.placed[path] = np.array(T, float)
@@ -231,7 +156,7 @@ class Scene:
         `at` is a point (3,) near which it is drawn; a screw that only slides goes through it and has no arc.
         """
         length, radius = 0.3 * self.size if length is None else length, radius or 0.005 * self.size
-        return self._draw(path, *draw.screw_axis(S, theta, label, at, length, radius, color))
+        return self._draw(path, *marks.screw_axis(S, theta, label, at, length, radius, color))
 
     def arrow(
         self,
@@ -243,7 +168,7 @@ class Scene:
         radius: float | None = None,
     ) -> Drawing:
         """An arrow from start (3,) along vector (3,), metres; a vector of length zero draws nothing."""
-        return self._draw(path, *draw.arrow(start, vector, color, label, radius or 0.006 * self.size))
+        return self._draw(path, *marks.arrow(start, vector, color, label, radius or 0.006 * self.size))
 
     def line(
         self,
@@ -255,13 +180,13 @@ class Scene:
         radius: float | None = None,
     ) -> Drawing:
         """A straight line from a (3,) to b (3,)."""
-        return self._draw(path, *draw.line(a, b, color, label, radius or 0.003 * self.size))
+        return self._draw(path, *marks.line(a, b, color, label, radius or 0.003 * self.size))
 
     def curve(
         self, path: str, points: ArrayLike, color: str | int = "trace", radius: float | None = None
     ) -> Drawing:
         """A smooth wire through points (k, 3)."""
-        return self._draw(path, draw.curve(points, color, radius or 0.0025 * self.size))
+        return self._draw(path, marks.curve(points, color, radius or 0.0025 * self.size))
 
     def point(
         self,
@@ -272,13 +197,13 @@ class Scene:
         radius: float | None = None,
     ) -> Drawing:
         """A ball at p (3,)."""
-        return self._draw(path, *draw.point(p, label, color, radius or 0.008 * self.size))
+        return self._draw(path, *marks.point(p, label, color, radius or 0.008 * self.size))
 
     def normals(
         self, path: str, points: Iterable[ArrayLike], vectors: Iterable[ArrayLike], color: str | int = "axis"
     ) -> Drawing:
         """Thin arrows from points (k, 3) along vectors (k, 3)."""
-        return self._draw(path, draw.normals(points, vectors, color, 0.002 * self.size))
+        return self._draw(path, marks.normals(points, vectors, color, 0.002 * self.size))
 
     def plane(
         self,
@@ -289,13 +214,13 @@ class Scene:
         color: str | int = "plane",
     ) -> Drawing:
         """A translucent square through point (3,)."""
-        return self._draw(path, draw.plane(point, normal, size or 0.6 * self.size, color))
+        return self._draw(path, marks.plane(point, normal, size or 0.6 * self.size, color))
 
     def sphere(
         self, path: str, center: ArrayLike, radius: float, color: str | int = "plane", opacity: float = 0.18
     ) -> Drawing:
         """A translucent sphere."""
-        return self._draw(path, draw.ball_about(center, radius, color, opacity))
+        return self._draw(path, marks.ball_about(center, radius, color, opacity))
 
     def ellipsoid(
         self,
@@ -311,7 +236,9 @@ class Scene:
         Drawn again with other numbers it only moves, and it may take part in a motion.
         """
         whole = self._draw(path, [])
-        for name, (parts, T) in draw.ellipsoid(axes, lengths, at, color, opacity, 0.0025 * self.size).items():
+        for name, (parts, T) in marks.ellipsoid(
+            axes, lengths, at, color, opacity, 0.0025 * self.size
+        ).items():
             self._draw(f"{path}/{name}", parts).move(T)
         return whole
 
