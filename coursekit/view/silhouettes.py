@@ -50,7 +50,8 @@ def _camera(robot, arm, points):
     if all(axes.parallel(up, w, axes.NEARLY) for w in turning):
         up = np.cross(up, right)
     elif len(points):
-        right = np.linalg.svd((points - arm.foot) @ level)[2][0]
+        spread = (points - arm.foot) @ level
+        right = np.linalg.eigh(spread.T @ spread)[1][:, -1]
         right *= 1 if right @ [1, 0.1, 0.01] > 0 else -1
     return right / np.linalg.norm(right), up / np.linalg.norm(up)
 
