@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import coursekit
+from coursekit import robots
 from coursekit.site.reference import offered
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -103,6 +104,17 @@ def test_readme_has_each_command_for_both_systems(ending):
 
 def test_readme_can_be_read_in_a_few_minutes():
     assert len(README.split()) <= 1500, "words in README.md: what not everybody needs belongs into .github"
+
+
+def test_readme_names_every_robot_of_the_catalogue():
+    (told,) = re.findall(r"^The robots: (.*)$", README, flags=re.MULTILINE)
+    names = {
+        re.sub(r" \(.*", "", robot.name) for robot in robots.all().values()
+    }  # a variant stands for itself
+    missing = {
+        name for name in names if not set(re.findall(r"\S*\d\S*|\S+$", name)) <= set(re.split(r"[ ,]+", told))
+    }
+    assert not missing, "in README's list of robots"
 
 
 def test_readme_links_lead_somewhere():
