@@ -92,6 +92,9 @@ class Slider(Control):
     digits = traitlets.Int().tag(sync=True)
     shape = traitlets.Int(0).tag(sync=True)  # counts changes of everything but the value
     wide = traitlets.Int(0).tag(sync=True)  # letters for which the label leaves room
+    bands: traitlets.List = traitlets.List().tag(
+        sync=True
+    )  # runs [low, high] of what can be reached; and inside limits
     _beyond = False  # whether a value outside min and max is taken as it is
 
     def __init__(
@@ -199,9 +202,12 @@ class JointSlider(Slider):
 
 
 class Sliders:
-    """Several sliders whose values are one vector. `folded`: the title under which they are folded away."""
+    """Several sliders whose values are one vector.
 
-    folded = ""
+    folded   the title under which they are folded away;  legend   HTML under them: what is drawn in them
+    """
+
+    folded = legend = ""
 
     def __init__(self, name: str, sliders: Iterable[Slider]) -> None:
         self.name = name

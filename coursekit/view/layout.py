@@ -19,6 +19,7 @@ def column(controls: Sequence[Control | Sliders], reset: Action) -> ipywidgets.W
     for control in controls:
         if isinstance(control, Sliders):
             rows += _folded(control) if control.folded else control.sliders
+            rows += [ipywidgets.HTML(control.legend)] if control.legend else []
         else:
             (switches if isinstance(control, Toggle | Action) else rows).append(control)
     for switch in (*switches, reset):

@@ -125,9 +125,8 @@ class Panel(ipywidgets.VBox):
         self.viewer.controls = [f"IPY_MODEL_{widget.model_id}" for widget in touchable]
         self.viewer.driven_by(self._drivers(values))
         self.viewer.observe(self._frame_changed, ["frame", "playing"])
-        for control in self._controls.values():
-            if isinstance(control, PoseSliders):
-                self.viewer.held_by(control.path, control.letter, control.sliders)
+        for target in self._targets():
+            self.viewer.held_by(target.path, target.letter, target.sliders)
         self.viewer.observe(self._dragged, "dragged")
         cells.take_place(self)
         cells.afterwards(self._catch_up)
@@ -278,6 +277,9 @@ class Panel(ipywidgets.VBox):
         sliders = self._controls.get("theta")
         return sliders.used if isinstance(sliders, parts.JointSliders) else []
 
+    def _targets(self):
+        return [control for control in self._controls.values() if isinstance(control, PoseSliders)]
+
     def _words(self, values):
         return self._text(values) if self._text is not None else self.scene.text()
 
@@ -329,8 +331,7 @@ class Panel(ipywidgets.VBox):
         """A hand in the picture moved the target or the joints: their sliders say so, all at once."""
         with self._lock:
             told = change.new
-            for_target = [c for c in self._controls.values() if isinstance(c, PoseSliders)]
-            sliders = for_target[0].sliders if told["what"] == "target" else self._drivers(self.values)
+            sliders = self._targets()[0].sliders if told["what"] == "target" else self._drivers(self.values)
             with self._silence():
                 for slider, value in zip(sliders, told["values"], strict=False):
                     if slider is not None and value is not None:
@@ -348,8 +349,8 @@ class Panel(ipywidgets.VBox):
             self.viewer.end()
 
     def _draw_below(self, values, has_time):
-        """Plots and tables; a plot takes longer than all the rest and may have to wait."""
-        for output in (*self.formula, *self.below):
+        """Bands, plots and tables, once the arm is sent; a plot takes longest and may have to wait."""
+        for output in (*self.formula, *self._targets(), *self.below):
             if hasattr(output, "refresh"):
                 self._stale = [other for other in self._stale if other is not output]
                 if hasattr(output, "has_time") and not has_time(output):

@@ -30,6 +30,35 @@ COUNT_WEBGL = """
     };"""
 
 
+BANDS = """(slider) => {
+    const track = slider.parentElement, all = track.querySelector(".ck-bands").getBoundingClientRect();
+    const ends = (kind) => [...track.querySelectorAll(kind)].map((one) => one.getBoundingClientRect())
+        .map(({ left, right }) => [(left - all.left) / all.width, (right - all.left) / all.width]);
+    return { says: document.getElementById(slider.getAttribute("aria-describedby")).textContent,
+             lines: ends(".ck-band:not(.ck-inside)"), bars: ends(".ck-inside") };
+}"""
+
+
+def bands_tell_where_the_target_is_in_reach(explorer):
+    """A line and a bar under the slider of x, in words too, that move with the slider of z."""
+    seen = []
+    for keys in ([], ["PageDown"]):
+        explorer.slide("z", keys)
+        shown = explorer.page.get_by_role("slider", name="x", exact=True).evaluate(BANDS)
+        slider = "_controls['pose'].sliders[0]"
+        reached, inside = explorer.kernel(f"{slider}.bands")
+        low, high = explorer.kernel(f"{slider}.min"), explorer.kernel(f"{slider}.max")
+        assert len(reached) == 1 and inside == reached
+        expected = (np.array(reached) - low) / (high - low)
+        np.testing.assert_allclose(shown["lines"], expected, atol=0.005)
+        np.testing.assert_allclose(shown["bars"], expected, atol=0.005)
+        ends = " to ".join(f"{end:.0f}" for end in reached[0])
+        assert shown["says"] == f"reachable from {ends} millimetres, inside the joint limits"
+        seen.append(ends)
+    assert seen[0] != seen[1]
+    explorer.slide("z", ["PageUp"])
+
+
 # -- what is special about each explorer: move it, and compare the page with the kinematics ----------------
 
 
@@ -51,6 +80,7 @@ def screws(explorer):
 
 
 def inverse(explorer):
+    bands_tell_where_the_target_is_in_reach(explorer)
     explorer.slide("x", ["PageUp"])
     shown = np.array(explorer.kernel("scene.robots['robot'].theta.tolist()"))
     explorer.assert_arm_stands_at(shown)

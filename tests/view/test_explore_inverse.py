@@ -141,3 +141,66 @@ def test_a_picture_a_line_and_no_leak():
     assert bundle["text/plain"].startswith("Explorer of inverse kinematics: KUKA KR6 R900 sixx")
     panel.close()
     assert len(ipywidgets.widgets.widget._instances) == before
+
+
+@pytest.mark.parametrize("name", ["kuka_kr6", "puma560", "ur5", "planar_2r"])
+def test_the_bands_say_where_the_target_is_in_reach(name):
+    """Along each slider, the others held: against one pose after the other, and a little outside each end."""
+    robot = robots.all()[name]
+    panel = view.explore_inverse(robot)
+    sliders, pose = panel._controls["pose"].sliders, panel.values["pose"]
+    bands = [slider.bands for slider in sliders]
+    panel.close()
+    outside = 0
+    for k, slider in enumerate(sliders):
+        per, fine = slider.shown_per_si, 0.2  # mm, deg
+
+        def looked(values, k=k, per=per):
+            poses = np.repeat(pose[None], len(values), axis=0)
+            poses[:, k] = np.array(values) / per
+            T = np.tile(np.eye(4), (len(values), 1, 1))
+            T[:, :3, :3], T[:, :3, 3] = rotations.from_zyx(poses[:, 3:]), poses[:, :3]
+            found = ik.analytic(robot, T)
+            return found.exists.any(axis=-1), found.within_limits.any(axis=-1)
+
+        for runs, which in zip(bands[k], range(2), strict=True):
+            values = np.linspace(slider.min, slider.max, 397)
+            near = [np.abs(values - end) < fine for run in runs for end in run]
+            clear = ~np.any(near, axis=0) if near else np.full(len(values), True)
+            told = np.any([(low <= values) & (values <= high) for low, high in runs], axis=0)
+            np.testing.assert_array_equal((looked(values)[which] & clear), told & clear, f"{slider.name}")
+            ends = np.array(runs).reshape(-1, 2)
+            assert looked(ends.ravel())[which].all()
+            beyond = (ends + [-fine, fine]).ravel()
+            beyond = beyond[(beyond > slider.min) & (beyond < slider.max)]
+            assert not looked(beyond)[which].any()
+            outside += len(beyond)
+    assert outside > 4
+
+
+def test_the_bands_hold_what_is_shown_and_follow_the_other_sliders(panel):
+    x, *_, roll = panel._controls["pose"].sliders
+    before = x.bands
+    assert any(low <= x.value <= high for low, high in before[1])
+    pose = panel.values["pose"]
+    panel.set(pose=[*pose[:2], pose[2] + 0.1, *pose[3:]])
+    assert x.bands != before and any(low <= x.value <= high for low, high in x.bands[0])
+    panel.set(pose=[*pose[:2], 1.6, *pose[3:]])
+    assert x.bands == roll.bands == [[], []]
+
+
+def test_bands_follow_a_drag_only_where_they_are_quick(panel):
+    sliders = panel._controls["pose"]
+    x, z = sliders.sliders[0], sliders.sliders[2]
+    for cost, follows in ((0.0, True), (1.0, False)):
+        before, sliders._cost = x.bands, cost
+        z.set_state({"value": z.value - 20, "live": True, "touched": z.touched + 1})
+        assert (x.bands != before) is follows
+        z.set_state({"live": False, "touched": z.touched + 1})
+        assert x.bands != before
+
+
+def test_an_arm_without_a_formula_has_no_bands():
+    panel = view.explore_inverse(robots.franka_panda())
+    assert all(slider.bands == [] for slider in panel._controls["pose"].sliders)
+    panel.close()

@@ -33,11 +33,12 @@ def explore_inverse(
 ) -> Panel:
     """Open the explorer of inverse kinematics.
 
-    Six sliders say where the tool should be. The way chosen in the table is drawn solid, every other
-    solution translucent; the table gives all joint angles and why a solution is outside the limits or does
-    not exist. Newton's method starts from the guess of the last sliders; its error is plotted, and the button
-    shows its steps. A target out of reach leaves the solid arm where it was and shows the closest pose found
-    as a ghost.
+    Six sliders say where the tool should be. For an arm with a closed form a line under each shows where
+    along it there is a solution, the other five held, and a bar where one keeps the joint limits. The way
+    chosen in the table is drawn solid, every other solution translucent; the table gives all joint angles and
+    why a solution is outside the limits or does not exist. Newton's method starts from the guess of the last
+    sliders; its error is plotted, and the button shows its steps. A target out of reach leaves the solid arm
+    where it was and shows the closest pose found as a ghost.
 
     Parameters
     ----------
@@ -78,7 +79,7 @@ class _Inverse(yours.Inverse, Explorer):
         for slider in guess.sliders:
             slider.label = f"guess {slider.label}"
         return [
-            pose_sliders(self.T, robot),
+            pose_sliders(self.T, robot, reach=self.solver.reaches if self.solver.closed else None),
             Toggle("others", "other solutions", start=True),
             Toggle("trace", "Newton's way"),
             Action("steps", "show Newton's steps", self.play),

@@ -62,6 +62,11 @@ class Solver:
         before = np.empty((0, self.robot.n)) if before is None else np.asarray(before, float)
         return self._by_formula(T) if self.closed else self._by_restarts(T, before)
 
+    def reaches(self, T: ArrayLike) -> np.ndarray:
+        """Which poses T (..., 4, 4) the formula reaches, and which inside the limits: bool (2, ...)."""
+        found = ik.analytic(self.robot, T)
+        return np.stack([found.exists.any(axis=-1), found.within_limits.any(axis=-1)])
+
     def nearest(self, ways: Ways, theta: ArrayLike) -> int:
         """The number of the way nearest to theta (n,), angles compared round the circle; -1 where none is."""
         if not ways.exists.any():

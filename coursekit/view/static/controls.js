@@ -23,7 +23,7 @@ function slider(model, el) {
     el.replaceChildren();
     draw = buildSlider(model, el);
   };
-  model.on("change:value", () => draw());
+  for (const name of ["value", "bands"]) model.on(`change:${name}`, () => draw());
   model.on("change:shape", build); // another robot: other limits
   build();
 }
@@ -41,7 +41,9 @@ function buildSlider(model, el) {
   const hint = element("div", { class: "ck-hint", role: "alert" });
   const name = element("label", { class: "ck-name", for: id }, label);
   const ends = element("div", { class: "ck-ends", "aria-hidden": "true" });
-  const track = element("div", { class: "ck-track" }, range, ends);
+  const bands = element("div", { class: "ck-bands", "aria-hidden": "true" });
+  const says = element("span", { class: "ck-spoken", id: `${id}-says` });
+  const track = element("div", { class: "ck-track" }, range, bands, ends, says);
   const row = element("div", { class: "ck-slider" }, name, track, box, element("span", { class: "ck-unit" }, unit), hint);
   leaveRoom(row, model);
   pointsAt(row, model.get("word"));
@@ -60,8 +62,30 @@ function buildSlider(model, el) {
     if (![...ends.children].some((other) => other.style.left === mark.style.left)) ends.append(mark);
   }
 
+  // Where the target can be reached while the other sliders stay: a line; inside the joint limits: a bar upon it.
+  let banded = null;
+  const drawBands = () => {
+    banded = model.get("bands");
+    const bar = ([low, high], i) => {
+      const node = element("span", { class: `ck-band ${i ? "ck-inside" : ""}` });
+      node.style.cssText = `left: ${at(low)}%; width: ${at(high) - at(low)}%`;
+      return node;
+    };
+    const runs = (list) => list.map(([low, high]) => {
+      const ends = [low, high].map((end) => trim(end, 0));
+      return ends[0] === ends[1] ? `at ${ends[0]}` : `from ${ends[0]} to ${ends[1]}`;
+    }).join(" and ") || "nowhere";
+    bands.replaceChildren(...banded.flatMap((list, i) => list.map((run) => bar(run, i))));
+    const [all, kept] = banded.map(runs);
+    says.textContent = track.title = all === kept ? `reachable ${all} ${spoken}, inside the joint limits`
+      : `reachable ${all} ${spoken}; inside the joint limits ${kept}`;
+    range.setAttribute("aria-describedby", says.id);
+  };
+
   let dragging = false;
   const draw = () => {
+    const known = model.get("bands");
+    if (known && known.length && known !== banded) drawBands();
     const value = model.get("value");
     if (!dragging) range.value = value;
     range.setAttribute("aria-valuenow", trim(value, digits));
