@@ -31,7 +31,10 @@ OPENERS = {
         "explore_jacobians(robots.franka_panda(), {mine})",
     ),
     **dict.fromkeys(
-        ("tool_frames", "quaternion", "zyx", "angle_axis", "slerp", "inside", "largest_speed"),
+        (
+            *("tool_frames", "quaternion", "zyx", "angle_axis", "slerp"),
+            *("next_on_branch", "inside", "largest_speed"),
+        ),
         "explore_path(robots.abb_irb1200(), {mine})",
     ),
 }

@@ -202,6 +202,24 @@ def follow(robot: Robot, T: ArrayLike) -> np.ndarray:
     return np.swapaxes(q, 0, 1)
 
 
+def next_on_branch(last: ArrayLike, solutions: ArrayLike) -> np.ndarray:
+    """Where a branch goes on: last (n,), solutions (k, n) of the next pose, rad -> (n,), rad; hinges only.
+
+    The solution nearest to last, angles compared modulo whole turns, with the turns that continue last. Rows
+    of NaN do not exist; ValueError where no row does.
+
+    >>> next_on_branch([3.1], [[1.6], [-3.1]]).round(2).tolist()
+    [3.18]
+    """
+    last = checks.array(last, (), "last")
+    solutions = np.atleast_2d(checks.array(solutions, last.shape, "solutions"))
+    way = _wrap(solutions - last)
+    far = np.linalg.norm(way, axis=-1)
+    if np.isnan(far).all():
+        raise ValueError(f"solutions must be (k, n) with a row that exists, got {len(far)} without one")
+    return last + way[np.nanargmin(far)]
+
+
 def trace(robot: Robot, T: ArrayLike, theta0: ArrayLike, rows: str = "all") -> np.ndarray:
     """Follows poses by numeric inverse kinematics, from pose to pose, for any arm.
 

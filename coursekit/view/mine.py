@@ -92,6 +92,7 @@ WANTED: dict[str, dict[str, Wanted]] = {
         "zyx": Wanted("R", (3,), _ATTITUDE),
         "angle_axis": Wanted("R", (3,), _ATTITUDE),
         "slerp": Wanted("R_0, R_1, t", (3, 3), "your attitude between those of the path's two ends"),
+        "next_on_branch": Wanted("last, solutions", (None,), "where your way leaves the branch"),
         "inside": Wanted("theta, lower, upper", (None,), "where your function judges the path differently"),
         "largest_speed": Wanted(
             "q, points, v_max", (), "the motion at your speed, and the joint that breaks its bound"

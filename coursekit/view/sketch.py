@@ -15,6 +15,7 @@ from .scene import Scene
 ROOT = "/ck/yours"  # everything that is drawn by the student's numbers
 COLOR = "accent"  # and its one colour
 ZERO = 1e-9  # metres, radians: what differs by less is the same
+MARKS = 20  # points at most that are marked at once
 FAR = 4.0  # sizes of the scene: what is farther away is told and not drawn
 
 
@@ -166,6 +167,14 @@ class Sketch:
     def mark(self, key: str, point: np.ndarray, label: str = "") -> None:
         """A ball at a point (3,)."""
         self.scene.point(f"{self.path}/{key}", point, label, COLOR, 0.012 * self.scene.size)
+
+    def marks(self, key: str, points: np.ndarray) -> None:
+        """Balls at the first of these points (k, 3), and no others."""
+        for k in range(MARKS):
+            if k < len(points):
+                self.mark(f"{key}{k}", points[k])
+            else:
+                self.scene.remove(f"{self.path}/{key}{k}")
 
     def arrow(self, key: str, at: np.ndarray, way: np.ndarray, label: str, color: str = COLOR) -> None:
         """An arrow along `way` (3,); none where that is zero."""

@@ -416,3 +416,26 @@ def test_speed_grows_with_the_bound_and_the_size_of_the_path(bound, scale):
 def test_errors_say_what_was_expected(call, message):
     with pytest.raises(ValueError, match=message):
         call()
+
+
+# -- one step along a branch
+
+
+def test_step_by_step_every_branch_is_the_one_that_follow_finds(branches):
+    solutions = ik.analytic(ABB, path.frames(path.s_curve(101))).theta
+    for branch in branches[101]:
+        way = [branch[0]]
+        for rows in solutions[1:]:
+            way.append(path.next_on_branch(way[-1], rows))
+        np.testing.assert_allclose(way, branch, rtol=0, atol=1e-12)
+
+
+def test_a_branch_goes_on_where_it_is_however_many_turns_away_and_past_what_does_not_exist():
+    found = path.next_on_branch([3.1 + 6 * np.pi, 0], [[np.nan, np.nan], [-3.1, 0.1], [3.1, 1]])
+    np.testing.assert_allclose(found, [6 * np.pi + 2 * np.pi - 3.1, 0.1], rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("solutions", [[[np.nan, np.nan]], np.empty((0, 2)), [[0.0, 0, 0]]])
+def test_a_branch_without_a_solution_says_so(solutions):
+    with pytest.raises(ValueError, match="solutions must"):
+        path.next_on_branch([0, 0], solutions)

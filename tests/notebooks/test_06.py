@@ -165,7 +165,7 @@ def test_the_largest_speed_is_the_golden_one(solved, followed):
     found = [solved.largest_speed(branch, points, own) for branch in q]
     np.testing.assert_allclose(found, expected.speed, rtol=1e-12)
     rows = [
-        numbers(line.split("each")[-1].split("own")[-1]) for line in printed("eight-speeds").splitlines()[3:5]
+        numbers(line.split("each")[-1].split("own")[-1]) for line in printed("eight-speeds").splitlines()[4:6]
     ]
     assert rows == [[0.3001, 0.3001, 6], [round(expected.speed[0], 4)] * 2 + [1]]
 

@@ -9,6 +9,7 @@ from coursekit.classroom.exercises import _attitudes as attitudes
 from coursekit.classroom.exercises import _nb06 as residuals
 from coursekit.classroom.exercises import _paths as draws
 from coursekit.classroom.exercises import looks
+from coursekit.classroom.exercises._nb06_branch import NEXT_ON_BRANCH
 
 # What the student's functions may call from coursekit.kinematics: what earlier notebooks had them write, and
 # the elementary turns.
@@ -360,4 +361,5 @@ EXERCISES = [
         ),
         laws=(("the way back is the same way", _there_and_back),),
     ),
+    NEXT_ON_BRANCH,
 ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from coursekit.classroom.mistakes import Solved, _nb06_turns
+from coursekit.classroom.mistakes import Solved, _nb06_branch, _nb06_turns
 
 right = Solved("nb06")
 
@@ -314,4 +314,5 @@ WRONG = {
         "signed": speed_signed,
     },
     **_nb06_turns.WRONG,
+    **_nb06_branch.WRONG,
 }

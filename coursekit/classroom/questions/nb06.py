@@ -154,6 +154,6 @@ GOALS = {
     "frames along a curve": ["tool_frames", "recall_place", "projected"],
     "three forms of a rotation": ["zyx", "quaternion", "angle_axis", "component", "trace", "test_axis"],
     "from attitude to attitude": ["slerp", "halfway"],
-    "inside the limits": ["inside", "test_limits"],
+    "continuous joint angles, inside the limits": ["next_on_branch", "inside", "test_limits"],
     "the largest speed": ["largest_speed", "one_step", "recall_rate", "test_bounds"],
 }

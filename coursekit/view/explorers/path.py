@@ -48,8 +48,8 @@ def explore_path(
         Another curve on the sphere of radius 0.5 m about (0, 0, 0.5), for instance from `path.load_points`;
         the letter S without it. ValueError where the arm cannot follow the curve in any way.
     mine : function, list or dict of functions, optional
-        What you wrote, beside what is right: tool_frames, quaternion, zyx, angle_axis, slerp, inside,
-        largest_speed (see `coursekit.view.mine`). ValueError for any other name.
+        What you wrote, beside what is right: tool_frames, quaternion, zyx, angle_axis, slerp, next_on_branch,
+        inside, largest_speed (see `coursekit.view.mine`). ValueError for any other name.
     """
     return _Path(robots.abb_irb1200() if robot is None else robot, points, mine).open(height)
 

@@ -149,6 +149,28 @@ def inside__all_turns(theta, lower, upper):
     return np.array([all(any(joint) for joint in row) for row in fits])
 
 
+def next_on_branch__unwrap(last, solutions):
+    """np.unwrap carries each joint on from where it was."""
+    best, least = None, math.inf
+    for row in solutions:
+        turned = np.unwrap(np.array([last, row]), axis=0)[1]
+        if np.abs(turned - last).max() < least:
+            best, least = turned, np.abs(turned - last).max()
+    return best
+
+
+def next_on_branch__remainder(last, solutions):
+    ways = [[math.remainder(b - a, 2 * math.pi) for a, b in zip(last, row, strict=True)] for row in solutions]
+    way = min(ways, key=lambda way: sum(abs(x) for x in way))
+    return [a + x for a, x in zip(last, way, strict=True)]
+
+
+def next_on_branch__complex(last, solutions):
+    """The way to each solution is the angle of a quotient."""
+    way = np.angle(np.exp(1j * solutions) / np.exp(1j * last))
+    return last + way[np.argmin(np.sum(way**2, axis=1))]
+
+
 def largest_speed__loop(q, points, v_max):
     best = math.inf
     for i in range(len(points) - 1):

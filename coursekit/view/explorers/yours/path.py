@@ -13,7 +13,6 @@ from coursekit.view.sketch import ZERO, Trouble, apart, gap, size
 
 FRAMES = 13  # of the path that are drawn
 SAMPLES = 51  # attitudes that are made again
-MARKS = 20  # points at most that are marked
 BACK = 1e-7  # rad; of a turn near 0 half the digits are lost
 
 
@@ -101,6 +100,23 @@ class Path(Explorer):
             return "every attitude between the two ends agrees, below 1e-7"
         return f"off by up to {gap(0, angle[worst])}, at t = {text.number(shares[worst], 2)}"
 
+    def _next_on_branch(self, sketch, name):
+        """The student's steps along this way, begun some turns away, among all ways within half a turn."""
+        hinges = np.array([kind == "revolute" for kind in self.robot.joint_types])
+        turns = 2 * np.pi * np.resize([0, 1, -2], self.robot.n) * hinges
+        right = self.q[self.branch, : self.reached[self.branch]] + turns
+        solutions = np.where(hinges, np.angle(np.exp(1j * self.q)), self.q).swapaxes(0, 1)
+        mine = right.copy()
+        for i in range(1, len(mine)):
+            mine[i] = self.mine.ask(name, mine[i - 1].copy(), solutions[i].copy())
+        off = np.flatnonzero(~(np.abs(mine - right) <= BACK).all(axis=1))
+        sketch.marks("left", self.points[off])
+        if not off.size:
+            return f"your {len(mine) - 1} steps, begun whole turns away, keep to this way, below 1e-7"
+        k = off[0]
+        leap = np.abs(mine[k] - right[k])
+        return f"at point {k + 1} you leave this way: joint {leap.argmax() + 1} leaps by {gap(0, leap.max())}"
+
     def _inside(self, sketch, name):
         lower, upper = self.robot.q_min, self.robot.q_max
         if not np.isfinite([lower, upper]).all():
@@ -112,11 +128,7 @@ class Path(Explorer):
             raise Trouble(f"it returns {len(mine)} verdicts for {len(right)} configurations")
         off = (mine != right).reshape(len(ways), -1)
         here = np.flatnonzero(off[list(ways).index(self.branch)]) if self.branch in ways else []
-        for k in range(MARKS):
-            if k < len(here):
-                sketch.mark(f"off{k}", self.points[here[k]])
-            else:
-                self.scene.remove(f"{sketch.path}/off{k}")
+        sketch.marks("off", self.points[here])
         if not off.any():
             return f"all {len(q)} configurations of all ways judged rightly"
         which = ", ".join(self.names[ways[k]] for k in np.flatnonzero(off.any(axis=1))[:3])
