@@ -354,6 +354,15 @@ def test_reasons_need_the_index_of_one_pose():
 # -- what else a solution says ------------------------------------------------------------------------------
 
 
+def test_nearest_is_the_root_of_the_sum_of_squares():
+    """By the sum of the differences another solution would be the nearest."""
+    robot = robots.planar_2r()
+    solutions = ik.analytic(robot, robot.fk([0.0, 1.0]))  # and (0.64, -1)
+    away = np.abs(solutions.theta - [0.0, -0.2])
+    assert away.sum(axis=1).tolist() == pytest.approx([1.43974582, 1.2])
+    assert solutions.nearest([0.0, -0.2]) == 0
+
+
 def test_nearest_and_turned():
     robot = ALL["kawasaki_s030"]
     solutions = ik.analytic(robot, robot.fk(robot.home + 0.1))

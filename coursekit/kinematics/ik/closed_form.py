@@ -60,9 +60,9 @@ class Solutions:
         return self.robot.nearest_turn(self.theta)
 
     def nearest(self, theta0: ArrayLike) -> np.ndarray:
-        """Number of the branch nearest to theta0 (..., n), differences taken round the circle: int (...).
+        """Number of the branch nearest to theta0 (..., n): int (...), -1 where no branch exists.
 
-        -1 where no branch exists.
+        Nearest by the root of the sum of squares, differences taken round the circle.
         """
         theta0 = checks.joint_angles(theta0, self.robot.n, self.robot.name)
         difference = np.abs(np.remainder(self.theta - theta0[..., None, :] + np.pi, 2 * np.pi) - np.pi)
