@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from coursekit import ik, robots, rotations
+from coursekit import ik, robots, rotations, view
 
 pytestmark = pytest.mark.browser
 
@@ -180,6 +180,83 @@ def test_a_drag_beside_the_arm_turns_the_picture(opened):
     drag(explorer, (box["x"] + 20, box["y"] + box["height"] - 30), (60, 0))
     assert np.abs(np.array(explorer.page.evaluate(where)) - before).max() > 0.05
     np.testing.assert_array_equal(explorer.values(), theta)
+
+
+@pytest.fixture
+def touched(browser, tmp_path):
+    """A page by itself under fingers, with more below it than the window holds."""
+    panel = view.explore(robots.kuka_kr6())
+    (tmp_path / "page.html").write_text(
+        view.to_html(panel).replace("</main>", f"{'<br>' * 99}</main>"), "utf-8"
+    )
+    panel.close()
+    context = browser.new_context(has_touch=True, viewport={"width": 412, "height": 800})
+    page = context.new_page()
+    page.goto((tmp_path / "page.html").as_uri())
+    page.wait_for_function("() => document.querySelector('.ck-viewer')?.coursekit?.stage.frames > 0")
+    page.locator(".ck-pane").scroll_into_view_if_needed()
+    yield page
+    context.close()
+
+
+EYE = """() => {
+    const { camera, controls } = document.querySelector(".ck-viewer").coursekit.viewer;
+    return [...camera.position.toArray(), ...controls.target.toArray()];
+}"""
+
+
+def swipe(page, fingers, way, steps=12):
+    """Fingers that start at these points of the picture (from its lower left corner) and go the same way."""
+    box, session = page.locator(".ck-pane").bounding_box(), page.context.new_cdp_session(page)
+    eye, scrolled = np.array(page.evaluate(EYE)), page.evaluate("scrollY")
+    corner = np.array([box["x"], box["y"] + box["height"]])
+    ways = way if isinstance(way, list) else [way] * len(fingers)
+    for k in range(steps + 1):
+        points = [
+            corner + np.array(start) * [1, -1] + np.array(one) * k / steps
+            for start, one in zip(fingers, ways, strict=True)
+        ]
+        told = [{"x": float(x), "y": float(y), "id": i} for i, (x, y) in enumerate(points)]
+        session.send(
+            "Input.dispatchTouchEvent", {"type": "touchMove" if k else "touchStart", "touchPoints": told}
+        )
+        page.wait_for_timeout(30)
+    session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    page.wait_for_timeout(500)
+    return np.array(page.evaluate(EYE)) - eye, page.evaluate("scrollY") - scrolled
+
+
+def test_a_finger_scrolls_the_page_and_turns_the_picture(touched):
+    moved, scrolled = swipe(touched, [(30, 60)], (0, -150))
+    assert scrolled > 80 and np.abs(moved).max() < 0.05
+    swipe(touched, [(30, 30)], (0, 150))
+    moved, scrolled = swipe(touched, [(30, 60)], (150, 5))
+    assert scrolled == 0 and np.abs(moved[:3]).max() > 0.3
+
+
+def test_a_finger_on_a_link_turns_its_joint(touched):
+    box, shown = (
+        touched.locator(".ck-pane").bounding_box(),
+        "() => document.getElementById('words').textContent",
+    )
+    x, y = touched.evaluate(ON_PAGE, [0.025, 0, 0.63])  # in the upper arm
+    before = touched.evaluate(shown)
+    moved, scrolled = swipe(touched, [(x - box["x"], box["y"] + box["height"] - y)], (0, -100))
+    assert scrolled == 0 and np.abs(moved).max() < 1e-9
+    assert touched.evaluate(shown) != before
+
+
+def test_two_fingers_move_the_picture_and_zoom(touched):
+    moved, scrolled = swipe(touched, [(40, 60), (90, 60)], (0, -80))
+    assert scrolled == 0 and np.abs(moved[3:]).max() > 0.05
+
+    def distance():
+        eye = np.array(touched.evaluate(EYE))
+        return np.linalg.norm(eye[:3] - eye[3:])
+
+    before = distance()
+    swipe(touched, [(60, 60), (90, 60)], [(-40, 0), (150, 0)])
+    assert distance() < 0.8 * before
 
 
 def test_a_finger_moves_the_target(opened_by_touch):

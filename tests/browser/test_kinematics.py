@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from coursekit import robots, view
+from tests.browser.test_pointing import SEEN
 
 pytestmark = pytest.mark.browser
 
@@ -98,6 +99,25 @@ def test_a_page_without_a_kernel_follows_its_sliders(offline, name):
                    .scene_tree.find(["ck", name]).object.visible)"""
     )
     assert lost == [name != "explore_singularities", name != "explore_jacobians"]
+
+
+def test_the_formula_of_a_page_points_into_its_picture(offline):
+    page = offline(view.explore_jacobians())
+    paths = ["/ck/robot/3/theta", "/ck/columns/3"]
+    third = page.locator(".ck-part").nth(2)
+    assert page.evaluate(SEEN, paths) == []
+    third.focus()
+    assert page.evaluate(SEEN, paths) == paths
+    meaning = page.locator(".ck-meaning")
+    assert meaning.inner_text().startswith("column 3: joint 3 at 1 rad/s moves the tool point by (")
+
+    page.locator("[role=slider]").first.press(
+        "PageUp"
+    )  # the column is another one now, and no kernel knows it
+    third.focus()
+    page.wait_for_timeout(500)
+    assert page.evaluate(SEEN, paths) == paths[:1]
+    assert meaning.inner_text().startswith("in the pose that was saved: column 3: joint 3 at ")
 
 
 def test_a_motion_moves_the_sliders_of_a_page_without_a_kernel(offline):

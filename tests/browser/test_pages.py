@@ -1,5 +1,7 @@
 """The viewer where things are not as usual: a motion, no WebGL, strict policies, a page without a kernel."""
 
+import base64
+
 import numpy as np
 import pytest
 
@@ -136,6 +138,25 @@ def test_without_webgl_there_are_views_and_a_player(open_page, lab):
         atol=1e-12,
     )
     assert [said for said in notebook.errors if "creating WebGL" not in said] == []
+
+
+def test_a_page_without_webgl_shows_the_picture_it_was_stored_with(browser, tmp_path):
+    panel = view.explore(robots.kuka_kr6())
+    panel.play(np.linspace(panel.values["theta"], panel.values["theta"] + 0.3, 5), autoplay=False)
+    expected = base64.b64encode(view.png(panel.scene, 640, panel.viewer.height)).decode()
+    (tmp_path / "page.html").write_text(view.to_html(panel), "utf-8")
+    panel.close()
+    context = browser.new_context(offline=True)
+    page, errors = context.new_page(), []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.add_init_script(NO_WEBGL)
+    page.goto((tmp_path / "page.html").as_uri())
+    assert page.evaluate(PICTURE, None) == expected
+    assert "no WebGL" in page.inner_text(".ck-wait")
+    assert page.locator(".ck-views button").count() == 0  # nothing here draws another view, or another pose
+    assert not page.locator(".ck-player").is_visible()
+    assert errors == []
+    context.close()
 
 
 def test_on_paper_the_robot_is_not_cut_off(browser, tmp_path):

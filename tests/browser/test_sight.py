@@ -50,6 +50,24 @@ SMALL = """() => [...document.querySelectorAll(".ck-panel :is(button, input, sel
     .filter((box) => box.width > 0 && (box.width < 24 || box.height < 24)).length"""
 
 
+# What has the focus, if something that scrolls cuts off its ring; "" if nothing does; None beyond the panel.
+CUT_OFF = """() => {
+    const one = document.activeElement, box = one.getBoundingClientRect(), style = getComputedStyle(one);
+    const ring = parseFloat(style.outlineWidth) + parseFloat(style.outlineOffset);
+    if (!one.closest(".ck-panel")) return null;
+    if (style.outlineStyle === "none") return `no ring: ${one.outerHTML}`;
+    for (let o = one.parentElement; o !== document.body; o = o.parentElement) {
+        const clip = o.getBoundingClientRect();
+        if (getComputedStyle(o).overflowY !== "visible"
+            && (box.top - ring < clip.top - 0.5 || box.left - ring < clip.left - 0.5
+                || box.right + ring > clip.right + 0.5 || box.bottom + ring > clip.bottom + 0.5)) {
+            return `${o.className}: ${one.outerHTML}`;
+        }
+    }
+    return "";
+}"""
+
+
 @pytest.fixture(scope="module")
 def opened(lab, open_page):
     """The explorer of singularities, in the light; a test that changes the theme puts it back."""
@@ -90,6 +108,18 @@ def test_tracks_begin_and_end_below_each_other(opened):
 
 def test_everything_that_can_be_pressed_is_large_enough(opened):
     assert opened.page.evaluate(SMALL) == 0
+
+
+def test_the_ring_of_the_focus_is_not_cut_off(opened):
+    opened.page.locator("[role=slider]").first.focus()
+    cut = []
+    for _ in range(80):
+        found = opened.page.evaluate(CUT_OFF)
+        if found is None:
+            break
+        cut += [found] if found else []
+        opened.page.keyboard.press("Tab")
+    assert found is None and cut == []
 
 
 def test_the_map_is_walked_by_arrow_keys(opened):

@@ -304,6 +304,25 @@ function makeStage(MeshCat, pane, quality) {
   pane.addEventListener("pointerdown", () => { viewer.controls.enableZoom = true; pane.focus({ preventScroll: true }); });
   pane.addEventListener("pointerleave", () => { viewer.controls.enableZoom = false; });
 
+  // A finger up or down scrolls the page, sideways it turns the picture; what it holds goes along, and two move and zoom.
+  pane.style.touchAction = "pan-y";
+  for (const name of ["touchstart", "touchmove"]) {
+    pane.addEventListener(name, (event) => {
+      if (event.cancelable && (event.touches.length > 1 || !viewer.controls.enabled)) event.preventDefault();
+    }, { passive: false });
+  }
+  let stood = false; // whether the camera's stand is kept: a finger turns it a little before the page scrolls
+  pane.addEventListener("pointerdown", (event) => {
+    if (!event.isPrimary) return;
+    stood = true;
+    viewer.controls.saveState();
+  });
+  pane.addEventListener("pointerup", () => (stood = false));
+  pane.addEventListener("pointercancel", () => {
+    if (stood) viewer.controls.reset();
+    stood = false;
+  });
+
   const unwatch = watchSize(pane, () => {
     viewer.set_3d_pane_size();
     stage.resized();
