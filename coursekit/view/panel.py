@@ -98,6 +98,7 @@ class Panel(ipywidgets.VBox):
         self._quiet, self._was_put = False, False
         self.motion: Motion | None = None
         self._played = False  # whether it ran when the page last said so
+        self._held = False  # a hand drags on a plot
         self._stale: list = []  # plots that wait until a drag ends
         self.live = False  # more values follow at once
         self.late = False  # and the scene waits for the last of them
@@ -159,7 +160,7 @@ class Panel(ipywidgets.VBox):
                 self._put(values)
                 if not all(isinstance(self._controls[name], parts.Toggle) for name in values):
                     self._end_motion()
-                self.refresh()
+                self.refresh(live=self._held)
             except Exception as error:  # a value that is refused moves nothing
                 self._put(before)
                 self.refresh()
@@ -184,7 +185,7 @@ class Panel(ipywidgets.VBox):
                 self.viewer.driven_by(self._drivers(values))
                 self.viewer.sync(self.scene, self.motion.frame if self.motion else None)
                 self.line.value = self._words(values)
-                self._draw_below(values, lambda plot: not live or plot.has_time())
+                self._draw_below(values, lambda plot: not live or plot.has_time(values))
             except Exception as error:
                 self.line.value = f"{type(error).__name__}: {error}"
                 raise
@@ -227,6 +228,16 @@ class Panel(ipywidgets.VBox):
             self.motion = motion
             if not self._quiet:
                 self.refresh()
+
+    def rest_at(self, frame: int) -> None:
+        """Show this pose of the motion, and play no further. ValueError where there is no motion."""
+        with self._lock:
+            if self.motion is None:
+                raise ValueError(f"panel {self.name!r} has no motion")
+            self.motion.frame = min(max(int(frame), 0), len(self.motion.thetas) - 1)
+            with self._silence():
+                self.viewer.rest_at(self.motion.frame)
+            self.refresh(live=self._held)
 
     # -- what a notebook stores
 
@@ -297,9 +308,9 @@ class Panel(ipywidgets.VBox):
             widget.observe(self._answer, "touched")
         if widget.has_trait("live"):
             widget.observe(lambda change: change.new or self._catch_up(), "live")
-        if widget.has_trait("dark"):
-            widget.observe(lambda _change: self.refresh(), "dark")
-        if isinstance(widget, parts.Action) or getattr(widget, "clickable", False):
+        if widget.has_trait("pointed"):
+            widget.observe(self._pointed, "pointed")
+        if isinstance(widget, parts.Action) or getattr(widget, "walkable", False):
             widget.on_msg(self._message)
 
     def _value_changed(self, change):
@@ -343,6 +354,18 @@ class Panel(ipywidgets.VBox):
                 self.viewer.heard = told["count"]
                 self.viewer.answers += 1
 
+    def _pointed(self, change):
+        """A click on a plot, or a hand that drags there."""
+        with self._lock:
+            told = change.new
+            self._held = told["live"]
+            try:
+                change.owner.point_at(told["x"], told["y"], told["live"])
+            finally:
+                self._held = False
+            if not told["live"]:
+                self._catch_up()
+
     def _end_motion(self):
         self.motion = None
         with self._silence():
@@ -370,8 +393,8 @@ class Panel(ipywidgets.VBox):
                 with self._silence():
                     widget.act()
                 self.refresh()
-            elif content.get("type") in ("click", "step"):
-                widget.act_on(content)
+            elif content.get("type") == "step":
+                widget.on_step(content["dx"], content["dy"])
 
     @contextlib.contextmanager
     def _silence(self):

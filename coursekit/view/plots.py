@@ -1,55 +1,82 @@
-"""Plots beside the 3D view: a matplotlib figure drawn to a picture, with a caption that says what to see."""
+"""Plots beside the 3D view: a matplotlib figure as SVG, in the ink of the page, and marks that move over it.
+
+A figure is drawn again when what it shows has changed; where only the arm has gone on, the kernel sends where
+the marks stand. The figure's labelled curves are also its numbers: a table for everybody, and in words for
+those who do not see it.
+"""
 
 from __future__ import annotations
 
 import io
+import re
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Hashable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import anywidget
 import numpy as np
 import traitlets
+from numpy.typing import ArrayLike
 
-from coursekit.view import controls
-
-INK, PAPER = "#d6dce4", "#1d2025"
-DARK: Any = {  # of a page with a dark theme
-    **dict.fromkeys(("figure.facecolor", "axes.facecolor", "savefig.facecolor", "legend.facecolor"), PAPER),
-    **dict.fromkeys(("text.color", "axes.labelcolor", "xtick.color", "ytick.color", "axes.edgecolor"), INK),
-}
+from coursekit.view import controls, text
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure  # else only where it is used: its import is slow
+
+# Colours of curves: a contrast of 3 or more on white and on the paper of a dark page.
+CURVES = ("#0E8FA3", "#C2307E", "#C75B12", "#3A7DE0", "#5F8A1E", "#8F6BD4", "#A07A12", "#7B8794")
+_INK = "#010203"  # where matplotlib writes it, the page's own ink comes
+STYLE: Any = {
+    **dict.fromkeys(("figure.facecolor", "axes.facecolor", "savefig.facecolor", "legend.facecolor"), "none"),
+    **dict.fromkeys(("text.color", "axes.labelcolor", "xtick.color", "ytick.color", "axes.edgecolor"), _INK),
+    "axes.prop_cycle": f"cycler(color={list(CURVES)})",
+    "image.interpolation": "none",  # the values as they are: fewer bytes, and the page makes them larger
+    "svg.fonttype": "none",  # text stays text
+    "svg.hashsalt": "coursekit",
+}
+_ROWS = 12  # of the table, at most
 
 
 class Plot(anywidget.AnyWidget):
-    """A matplotlib picture below the 3D view, drawn again when the values changed.
+    """A matplotlib figure below the 3D view.
 
     Parameters
     ----------
     draw : function(figure, values) -> None
-        Draws into an empty matplotlib Figure (`ax = figure.subplots()`).
+        Draws into an empty matplotlib Figure (`ax = figure.subplots()`). Its colours are `CURVES`, its ink is
+        the page's; the curves with a label also stand in the table of its numbers.
     caption : str
-        What to see, as a sentence; also the alternative text of the picture.
+        What to see, as a sentence.
     size : (float, float)
         Inches.
+    on_click : function(x, y), optional
+        Called with the point of a click, in the data coordinates of the figure's first axes, and again and
+        again while it is dragged; clicks outside the axes do not count. What it sets with `Panel.set` draws
+        the panel again.
     on_step : function(dx, dy), optional
         Called for the arrow keys, with whole steps or, with Shift, fifths of them: for those without a mouse.
-    on_click : function(x, y), optional
-        Called with the point of a click, in the data coordinates of the figure's first axes; clicks outside
-        them do not count. What it sets with `Panel.set` draws the panel again.
+    cursor : function(values) -> (k, 2), optional
+        Marks over the figure, in the data coordinates of its first axes: points or, where y is NaN, upright
+        lines. One outside the axes is not shown. They move without the figure being drawn again.
+    key : function(values), optional
+        What the figure shows, as something to compare (a tuple): it is drawn again where this differs from
+        the last time. Without it, always.
     """
 
     _esm = controls.SCRIPT
     _css = controls.STATIC / "controls.css"
-    kind = traitlets.Unicode("picture").tag(sync=True)
-    png = traitlets.Bytes().tag(sync=True)
+    kind = traitlets.Unicode("plot").tag(sync=True)
+    svg = traitlets.Unicode().tag(sync=True)
     alt = traitlets.Unicode().tag(sync=True)
     caption = traitlets.Unicode().tag(sync=True)
+    numbers: traitlets.List = traitlets.List().tag(sync=True)  # rows of text: the title, the header, the rest
+    cursor: traitlets.List = traitlets.List().tag(sync=True)  # [x, y low, y high] in fractions of the picture
     width = traitlets.Int().tag(sync=True)
     clickable = traitlets.Bool(False).tag(sync=True)
-    dark = traitlets.Bool(False).tag(sync=True)  # the page says it
+    walkable = traitlets.Bool(False).tag(sync=True)
+    pointed = traitlets.Dict().tag(sync=True)  # by a hand: {"x", "y"} in such fractions, "live", "count"
+    touched = traitlets.Int(0).tag(sync=True)  # as of a Control
 
     def __init__(
         self,
@@ -58,57 +85,137 @@ class Plot(anywidget.AnyWidget):
         size: tuple[float, float] = (5.2, 3.2),
         on_click: Callable[[float, float], None] | None = None,
         on_step: Callable[[float, float], None] | None = None,
+        cursor: Callable[[dict], ArrayLike] | None = None,
+        key: Callable[[dict], Hashable] | None = None,
     ) -> None:
-        self.draw = draw
+        self.draw, self.key, self.marks = draw, key, cursor
         self.on_click, self.on_step = on_click, on_step
         self._size = size
         self._figure: Figure | None = None
+        self._shown: Hashable = None  # the key of what is drawn
+        self._held = False  # by a hand that drags
         self._cost = 0.0  # seconds of the last drawing
         self._drawn_at = 0.0
-        super().__init__(
-            alt=caption, caption=caption, width=round(96 * size[0]), clickable=on_click is not None
-        )
+        can = {"clickable": on_click is not None, "walkable": on_step is not None}
+        super().__init__(alt=caption, caption=caption, width=round(96 * size[0]), **can)
 
     def refresh(self, values: dict) -> None:
-        """Draw the figure for these values and send the picture."""
-        from matplotlib import rc_context
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
+        """Draw the figure for these values where it shows something else, and place the marks."""
+        with self.hold_sync():
+            if self._is_old(values):
+                begun = time.monotonic()
+                self._draw(values)
+                self._shown = self.key(values) if self.key else None
+                self._drawn_at = time.monotonic()
+                self._cost = self._drawn_at - begun
+            self.cursor = self._placed(self.marks(values)) if self.marks else []
 
-        begun, picture = time.monotonic(), io.BytesIO()
-        with rc_context(DARK if self.dark else {}):
-            self._figure = Figure(figsize=self._size, dpi=144, layout="constrained")
-            FigureCanvasAgg(self._figure)
-            self.draw(self._figure, values)
-            self._figure.savefig(picture, format="png", dpi=144)
-        self.png = picture.getvalue()
-        self._drawn_at = time.monotonic()
-        self._cost = self._drawn_at - begun
+    def has_time(self, values: dict) -> bool:
+        """While a slider is dragged: would a refresh leave most of the time to the robot?"""
+        return not self._is_old(values) or time.monotonic() - self._drawn_at > 4 * self._cost
 
-    def has_time(self) -> bool:
-        """While a slider is dragged: would drawing now leave most of the time to the robot?"""
-        return time.monotonic() - self._drawn_at > 4 * self._cost
-
-    def act_on(self, content: dict) -> None:
-        """A click or an arrow key in the page."""
-        if content["type"] == "step" and self.on_step is not None:
-            self.on_step(content["dx"], content["dy"])
-        elif content["type"] == "click" and self.on_click is not None:
-            point = self.point(content["x"], content["y"])
-            if point is not None:
-                self.on_click(*point)
-
-    def point(self, x: float, y: float) -> tuple[float, float] | None:
-        """Data coordinates of a click at fractions (x, y) of the picture, or None outside the first axes."""
-        if self._figure is None or not self._figure.axes:
-            return None
-        axes = self._figure.axes[0]
-        pixel = np.array([x, y]) * self._figure.get_size_inches() * self._figure.dpi
-        inside = axes.transAxes.inverted().transform(pixel)
-        if not np.all((inside >= 0) & (inside <= 1)):
-            return None
-        at = axes.transData.inverted().transform(pixel)
-        return float(at[0]), float(at[1])
+    def point_at(self, x: float, y: float, live: bool) -> None:
+        """A hand points at fractions (x, y) of the picture, from the lower left; `live`: it will go on."""
+        inside = self._inside(np.array([x, y]) * self._extent())
+        if self.on_click and (self._held or np.all((inside >= 0) & (inside <= 1))):
+            axes = self._axes()
+            on_edge = axes.transAxes.transform(np.clip(inside, 0, 1))  # where a drag has left the axes
+            at = axes.transData.inverted().transform(on_edge)
+            self._held = live
+            self.on_click(float(at[0]), float(at[1]))
 
     def __repr__(self) -> str:
-        return f"Plot({self.caption})"
+        return f"Plot({self.alt})"
+
+    # -- inside
+
+    def _is_old(self, values):
+        return self._figure is None or self.key is None or self.key(values) != self._shown
+
+    def _draw(self, values):
+        from matplotlib import rc_context
+        from matplotlib.backends.backend_svg import FigureCanvasSVG
+        from matplotlib.figure import Figure
+
+        written, nothing = io.StringIO(), dict.fromkeys(("Date", "Creator", "Format", "Type"))
+        with rc_context(STYLE):
+            self._figure = Figure(figsize=self._size, layout="constrained")
+            FigureCanvasSVG(self._figure)
+            self.draw(self._figure, values)
+            self._figure.savefig(written, format="svg", metadata=nothing)
+        svg = re.sub(r"^.*?(?=<svg)|<style.*?</style>", "", written.getvalue(), flags=re.DOTALL)
+        self.svg = re.sub(r" font-family: [^;\"]*;?", "", svg).replace(_INK, "currentColor")
+        curves = _curves(self._figure)
+        self.numbers = _table(curves)
+        self.alt = " ".join(_words(self._figure, curves)) or self.caption
+
+    def _axes(self):
+        return self._figure.axes[0]
+
+    def _extent(self):
+        return self._figure.bbox.size
+
+    def _inside(self, pixels):
+        """Pixels as fractions of the first axes; NaN where there are none."""
+        found = self._figure and self._figure.axes
+        return self._axes().transAxes.inverted().transform(pixels) if found else np.full(2, np.nan)
+
+    def _placed(self, points):
+        """[x, y low, y high] of each mark, in fractions of the picture."""
+        placed = []
+        for x, y in np.reshape(np.asarray(points, float), (-1, 2)):
+            axes = self._axes()
+            ends = axes.get_ylim() if np.isnan(y) else (y, y)
+            pixels = axes.transData.transform([(x, end) for end in ends])
+            if np.all(np.abs(self._inside(pixels) - 0.5) <= 0.5 + 1e-9):
+                (left, low), (_, high) = pixels / self._extent()
+                placed.append([float(left), float(low), float(high)])
+        return placed
+
+
+def decades(ax: Axes, powers: Sequence[int]) -> None:
+    """Ticks of an upright log axis at these powers of ten, as text that any font sets; none between them."""
+    raised = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+    ax.set_yticks([10.0**k for k in powers], [f"10{str(k).translate(raised)}" if k else "1" for k in powers])
+    ax.minorticks_off()  # many ticks are slow to draw
+
+
+def _curves(figure):
+    """(axes, name, x, y) of every curve that has a label."""
+    found = []
+    for ax in figure.axes:
+        for line in ax.lines:
+            name = str(line.get_label())
+            x, y = np.array(line.get_data(), float)
+            if not name.startswith("_") and len(x) > 1:
+                if ax.get_yscale() == "linear":  # what is 0 but for rounding
+                    y = np.where(np.abs(y) < 1e-9 * np.abs(ax.get_ylim()).max(), 0, y)
+                found.append((ax, name, x, y))
+    return found
+
+
+def _table(curves):
+    """The curves at no more than twelve places, evenly chosen of all that they have."""
+    if not curves:
+        return []
+    places = np.unique(np.concatenate([x for _, _, x, _ in curves]))
+    places = places[np.unique(np.linspace(0, len(places) - 1, _ROWS).round().astype(int))]
+    at = [dict(zip(x, y, strict=True)) for _, _, x, y in curves]
+    rows = [[f"{x:.4g}", *(_number(known.get(x, np.nan)) for known in at)] for x in places]
+    up, across = curves[0][0].get_ylabel(), curves[0][0].get_xlabel()
+    return [[up], [across, *(name for _, name, *_ in curves)], *rows]
+
+
+def _words(figure, curves):
+    """What the axes are, and of every curve its ends and its extremes."""
+    for ax in figure.axes:
+        yield from [f"{ax.get_title()}."] if ax.get_title() else []
+        up, across = (f"{low:.3g} to {high:.3g}" for low, high in (ax.get_ylim(), ax.get_xlim()))
+        yield f"{ax.get_ylabel() or 'y'}, {up}, over {ax.get_xlabel() or 'x'}, {across}."
+    for _, name, _, y in curves:
+        first, last, least, most = (_number(v) for v in (y[0], y[-1], np.nanmin(y), np.nanmax(y)))
+        yield f"{name}: from {first} to {last}, lowest {least}, highest {most}."
+
+
+def _number(value):
+    return text.NOTHING if np.isnan(value) else f"{value:.3g}"

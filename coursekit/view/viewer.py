@@ -208,6 +208,12 @@ class Viewer(anywidget.AnyWidget):
                 "autoplay": bool(autoplay),
             }
 
+    def rest_at(self, frame: int) -> None:
+        """Show this frame of the motion and stop there."""
+        with self.hold_sync():
+            self.frame, self.playing = frame, False
+        self.send({"type": "rest", "frame": frame})  # a page that plays is ahead of what the kernel knows
+
     def forget(self) -> None:
         """Let go of what was drawn, once the viewer is closed."""
         self.messages = meshcat.Messages()

@@ -19,8 +19,7 @@ LISTEN = """() => {
     const { context } = window.jupyterapp.shell.currentWidget;
     context.sessionContext.iopubMessage.connect((_, { header, content }) => {
       if (header.msg_type === "execute_result" && content.data["image/png"]) told.push("result");
-      const paths = content.data?.buffer_paths || [];
-      if (header.msg_type === "comm_msg" && paths.some((path) => path[0] === "png")) told.push("plot");
+      if (header.msg_type === "comm_msg" && content.data?.state?.svg) told.push("plot");
     });
 }"""
 STORED = """() => window.jupyterapp.shell.currentWidget.content.widgets.at(-1).model.outputs.toJSON()
@@ -41,7 +40,7 @@ def test_the_stored_picture_is_there_until_the_first_frame_and_before_the_plots(
     assert shown == 1 and picture == notebook.page.evaluate(STORED)
     assert notebook.page.locator(".ck-first").count() == 0
     assert notebook.page.evaluate("told") == ["result", "plot"]
-    notebook.page.wait_for_function("() => document.querySelector('img.ck-plot').naturalWidth > 0")
+    notebook.page.wait_for_selector(".ck-plot svg")
     assert notebook.errors == []
 
 

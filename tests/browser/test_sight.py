@@ -133,20 +133,10 @@ def test_the_map_is_walked_by_arrow_keys(opened):
 
 
 @pytest.mark.parametrize("theme", ["Dark", "Light"])
-def test_labels_can_be_read_over_the_arm_and_plots_are_of_the_theme(opened, theme):
+def test_labels_can_be_read_over_the_arm(opened, theme):
     darken(opened, theme)
     contrasts = opened.page.evaluate(CONTRASTS)
     assert len(contrasts) > 3 and min(value for _, value in contrasts) >= 4.5, contrasts
-    corner = opened.page.evaluate(
-        """async () => {
-             const image = document.querySelector("img.ck-plot"), canvas = document.createElement("canvas");
-             await image.decode();
-             [canvas.width, canvas.height] = [4, 4];
-             canvas.getContext("2d").drawImage(image, 0, 0, 4, 4, 0, 0, 4, 4);
-             return [...canvas.getContext("2d").getImageData(1, 1, 1, 1).data].slice(0, 3);
-           }"""
-    )
-    assert max(corner) < 60 if theme == "Dark" else min(corner) > 240
 
 
 @pytest.mark.parametrize("theme", ["Dark", "Light"])

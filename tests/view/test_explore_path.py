@@ -131,7 +131,7 @@ def test_pictures_and_no_widget_left():
     before = len(ipywidgets.widgets.widget._instances)
     panel = view.explore_path()
     assert png(panel.scene, 320, 240).startswith(b"\x89PNG")
-    assert panel.below[0].png.startswith(b"\x89PNG")
+    assert panel.below[0].svg.startswith("<svg")
     assert repr(panel).startswith("Explorer of the path: ABB IRB 1200-5/0.9: joints (-28.1, 49.7, 47.8, 0.0")
     panel.close()
     assert len(ipywidgets.widgets.widget._instances) == before

@@ -11,9 +11,8 @@ from coursekit.view import pointing, text
 from coursekit.view.controls import Action, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.explorers.solver import Solver
-from coursekit.view.paint import PALETTE
 from coursekit.view.panel import Panel
-from coursekit.view.plots import Plot
+from coursekit.view.plots import Plot, decades
 from coursekit.view.silhouettes import silhouettes
 from coursekit.view.table import Table
 from coursekit.view.target import pose_of, pose_sliders
@@ -90,7 +89,9 @@ class _Inverse(yours.Inverse, Explorer):
         which = "All solutions" if self.solver.closed else "Solutions found by restarts"
         left = "Newton from the guess: angle (circles) and distance (squares) left before each step."
         self.list = Table("solution", self.table, f"{which}; choose one.", True, self.chosen, self.figures)
-        return [self.list, Plot(self.plot, left)]
+        left += " Click to see the arm at a step."
+        run = Plot(self.plot, left, on_click=self.click, cursor=self.here, key=self.run)
+        return [self.list, run]
 
     def update(self, values):
         self.solve(values["pose"], values["guess"], values["solution"])
@@ -103,8 +104,8 @@ class _Inverse(yours.Inverse, Explorer):
         else:
             self.scene.remove("/ck/newton")
 
-    def play(self):
-        self.panel.play(self.steps(), fps=2.0)
+    def play(self, autoplay=True):
+        self.panel.play(self.steps(), fps=2.0, autoplay=autoplay)
 
     def solve(self, pose, guess, row):
         """The ways to the target, which of them is shown, and Newton's run."""
@@ -231,19 +232,26 @@ class _Inverse(yours.Inverse, Explorer):
         """Angle and distance before each step of Newton's method, on a log axis."""
         ax = figure.subplots()
         error = np.array([step.error for step in self.found.history])
-        for column, name, style, color in (
-            (0, "angle [rad]", "o-", "trace"),
-            (1, "distance [m]", "s--", "accent"),
-        ):
-            ax.semilogy(
-                np.maximum(error[:, column], 1e-17), style, ms=4, label=name, color=f"#{PALETTE[color]:06X}"
-            )
-        if self.frame is not None:
-            ax.axvline(self.frame, color=ax.xaxis.label.get_color(), ls="--", lw=1)
-        ax.minorticks_off()  # many ticks are slow to draw
-        ax.set(xlabel="step", ylabel="angle, distance left", ylim=(1e-17, 10), yticks=[1e-15, 1e-10, 1e-5, 1])
+        for left, name, style in zip(error.T, ("angle [rad]", "distance [m]"), ("o-", "s--"), strict=True):
+            ax.semilogy(np.maximum(left, 1e-17), style, ms=4, label=name)
+        ax.set(xlabel="step", ylabel="angle, distance left", ylim=(1e-17, 10))
+        decades(ax, (-15, -10, -5, 0))
         ax.set_title(self.verdict().split(";")[0], fontsize=10)
         ax.legend(frameon=False)
+
+    def run(self, values):
+        """Newton's steps and where they end: what the plot shows."""
+        return self.steps().tobytes(), self.T.tobytes(), self.verdict()
+
+    def here(self, values):
+        """The step that is shown."""
+        return [] if self.frame is None else [self.frame, np.nan]
+
+    def click(self, x, _y):
+        """Show the step at x."""
+        if self.frame is None:
+            self.play(autoplay=False)
+        self.panel.rest_at(round(x))
 
 
 def _configuration(robot, closed):

@@ -12,7 +12,7 @@ from coursekit.view import pointing, text
 from coursekit.view.controls import Action, Slider, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.panel import Panel
-from coursekit.view.plots import Plot
+from coursekit.view.plots import Plot, decades
 from coursekit.view.shapes import frame_along
 from coursekit.view.target import pose_of, pose_sliders
 
@@ -24,7 +24,7 @@ UNIT = {"linear": "m/s", "angular": "rad/s"}
 COLOR = {"linear": "trace", "angular": "axis"}
 CAPTION = (
     "How far the joints turn in each step towards {d}: Newton (circles) leaps where the arm is nearly "
-    "singular, damped least squares (squares) does not."
+    "singular, damped least squares (squares) does not. Click to see the arm after a step."
 )
 METHODS = {
     "skew": jacobians.skew_theory,
@@ -85,7 +85,7 @@ class _Jacobians(yours.Jacobians, Explorer):
         self.target = pose_of(self.pose.get())
         self._key, self._found = None, {}
         self.start, self.settings = self.near, ()  # of the runs
-        self.running = False  # a motion shows a run, or else leads to another start
+        self.playing = ""  # the run that a motion shows, or else it leads to another start
         self.arm = self.scene.robot(robot, self.near)
         pointing.axes(self.scene, self.arm, lambda k: f"J{k}")
         self.goal = self.scene.frame("/ck/target", self.target, letter="d", size=0.14 * self.scene.size)
@@ -115,7 +115,7 @@ class _Jacobians(yours.Jacobians, Explorer):
         ]
 
     def below(self):
-        return [Plot(self.plot, CAPTION)]
+        return [Plot(self.plot, CAPTION, on_click=self.click, cursor=self.here, key=self.runs)]
 
     def update(self, values):
         settings = (values["damping"], *values["pose"])
@@ -126,7 +126,7 @@ class _Jacobians(yours.Jacobians, Explorer):
         self.target = pose_of(values["pose"])
         self.goal.move(self.target)
         self.arm.theta = self.joints.get()
-        if self.frame is None or not self.running:
+        if self.frame is None or not self.playing:
             self.start = self.arm.theta
         self.draw(self.arm.theta)
         for part, drawn in self.ellipsoids.items():
@@ -192,14 +192,14 @@ class _Jacobians(yours.Jacobians, Explorer):
 
     def drive_to(self, theta):
         """A motion leads beyond the limits, too, where a slider would stop."""
-        self.running = False
+        self.playing = ""
         self.panel.play(np.linspace(self.panel.values["theta"], theta, 31), follow=self.draw)
 
-    def play(self, name):
+    def play(self, name, autoplay=True):
         """Show the steps of one method, two a second."""
         steps = [step.theta for step in self.found(self.panel.values)[name].history]
-        self.running = True
-        self.panel.play(np.array(steps), fps=2.0, follow=self.draw)
+        self.playing = name
+        self.panel.play(np.array(steps), fps=2.0, autoplay=autoplay, follow=self.draw)
 
     def comparison(self, values):
         """Steps and longest step of both methods."""
@@ -213,19 +213,45 @@ class _Jacobians(yours.Jacobians, Explorer):
             count = f"{found.iterations} steps" if found.converged else f"not there after {STEPS} steps"
             unit = "rad and m" if "prismatic" in self.robot.joint_types else "rad"
             parts.append(f"{title}: {count}, the longest {text.number(longest, 2)} {unit}")
-        begun = "" if self.frame is None or not self.running else f" from the start, shown: step {self.frame}"
+        begun = "" if self.frame is None or not self.playing else f" from the start, shown: step {self.frame}"
         return f"to {{d}}{begun}  " + "; ".join(parts)
 
     def plot(self, figure, values):
         """Length of each step, on a log axis."""
         ax = figure.subplots()
         for (name, found), style in zip(self.found(values).items(), ("o-", "s--"), strict=True):
-            steps = [step.step for step in found.history[1:]]
-            ax.semilogy(range(1, len(steps) + 1), np.maximum(steps, 1e-9), style, ms=4, label=name)
+            steps = _lengths_of(found)
+            ax.semilogy(range(1, len(steps) + 1), steps, style, ms=4, label=name)
         ax.set(xlabel="step", ylabel="length of the step [rad]", ylim=(1e-9, 1e3))
-        ax.set_yticks([1e-8, 1e-6, 1e-4, 1e-2, 1, 1e2])
-        ax.minorticks_off()  # drawing them takes longer than all the rest
+        decades(ax, (-8, -6, -4, -2, 0, 2))
         ax.legend(frameon=False)
+
+    def runs(self, values):
+        """Where both methods start, and what else decides their steps."""
+        return *self.start, *self.settings
+
+    def here(self, values):
+        """The step that led to what is shown."""
+        found = self.found(values).get(self.playing)
+        return [self.frame, _lengths_of(found)[self.frame - 1]] if found and self.frame else []
+
+    def click(self, x, y):
+        """Show what a step led to, of the method whose mark is nearer."""
+        away = {}
+        for name, found in self.found(self.panel.values).items():
+            steps = _lengths_of(found)
+            if len(steps):
+                away[name] = abs(np.log(steps[min(max(round(x), 1), len(steps)) - 1] / y))
+        if away:
+            name = min(away, key=lambda name: away[name])
+            if self.frame is None or self.playing != name:
+                self.play(name, autoplay=False)
+            self.panel.rest_at(round(x))
+
+
+def _lengths_of(found):
+    """Length of each step as it is plotted: one of 0 has a place on a log axis, too."""
+    return np.maximum([step.step for step in found.history[1:]], 1e-9)
 
 
 def _nearly_singular(robot):

@@ -22,7 +22,7 @@ ONE_BOUND = 2.0  # rad/s for every joint (RPI mini project 3, 2021, problem 3); 
 STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1, 1, 1)))
 CAPTION = (
     "Rate of each joint in percent of its bound, at the largest speed that the bounds allow. "
-    "Dotted: the bounds; dashed: where the arm rests."
+    "Dotted: the bounds; dashed: where the arm is; click to put it elsewhere."
 )
 
 
@@ -105,7 +105,8 @@ class _Path(yours.Path, Explorer):
         ]
 
     def below(self):
-        return [Plot(self.plot, CAPTION, (5.2, 3.5)), Table("ways", self.table, "All ways along the path.")]
+        rates = Plot(self.plot, CAPTION, (5.2, 3.5), on_click=self.click, cursor=self.here, key=self.chosen)
+        return [rates, Table("ways", self.table, "All ways along the path.")]
 
     def open(self, height):
         panel = super().open(height)
@@ -217,16 +218,27 @@ class _Path(yours.Path, Explorer):
 
     def plot(self, figure, values):
         """Joint rates over the path, in percent of the bounds."""
-        from matplotlib import colormaps
-
         ax, step = figure.subplots(), path.steps(self.points)
-        s = np.append(0.0, np.cumsum(step))
         use = 100 * self._use(self.faulty if self.wrapped else self.limit)
         for j, rate in enumerate(use.T):
-            color = colormaps["viridis"](j / self.robot.n)
-            ax.plot(s[:-1] + step / 2, rate, ls=STYLES[j % 6], color=color, lw=1.6, label=f"joint {j + 1}")
-        ax.axvline(s[self.place], color=ax.xaxis.label.get_color(), ls="--", lw=1)
+            ax.plot(self.along()[:-1] + step / 2, rate, ls=STYLES[j % 6], lw=1.6, label=f"joint {j + 1}")
         for bound in (-100, 100):
-            ax.axhline(bound, color="#C2307E", ls=":", lw=1.2)
+            ax.axhline(bound, color=ax.xaxis.label.get_color(), ls=":", lw=1.2)
         ax.set(xlabel="distance along the path [m]", ylabel="rate [% of its bound]", ylim=(-115, 115))
         ax.legend(ncols=3, fontsize=8, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0))
+
+    def along(self):
+        """How far along the path each of its points is, metres."""
+        return np.append(0.0, np.cumsum(path.steps(self.points)))
+
+    def chosen(self, values):
+        """What the plot shows: every choice but the drawn surfaces."""
+        return values["points"], values["branch"], values["wrapped"], *values["bounds"]
+
+    def here(self, values):
+        """Where the arm is."""
+        return [self.along()[self.place], np.nan]
+
+    def click(self, s, _y):
+        """Put the arm at the pose of the motion nearest to s along the path."""
+        self.panel.rest_at(np.abs(self.along()[self.shown] - s).argmin())

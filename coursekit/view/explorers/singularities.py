@@ -25,11 +25,11 @@ ZERO_WHERE = {
 JOINTS = {f"θ{k + 1}": k for k in range(1, 5)}  # det J depends on no other joint
 CAPTION = (
     "Dark: det J is small. White lines: a factor is 0 (elbow dashed, shoulder solid, wrist dotted). "
-    "The cross is the arm; click to move it."
+    "The ring is the arm; click, or drag it."
 )
 CAPTION_OF_SIGMA = (
     "Dark: the smallest singular value is small, relative to the largest on this map. "
-    "The cross is the arm; click to move it."
+    "The ring is the arm; click, or drag it."
 )
 NEAR = 0.05  # relative factor below which a singularity is called near: about 3 degrees
 LOST = 1e-9  # singular values below are 0
@@ -103,11 +103,9 @@ class _Singularities(yours.Singularities, Explorer):
     def below(self):
         if len(self.offered) < 2:
             return []
-        return [
-            Plot(
-                self.plot, CAPTION if self.split else CAPTION_OF_SIGMA, on_click=self.click, on_step=self.step
-            )
-        ]
+        hands = {"on_click": self.click, "on_step": self.step}
+        caption = CAPTION if self.split else CAPTION_OF_SIGMA
+        return [Plot(self.plot, caption, **hands, cursor=self.here, key=self.map_of)]
 
     def show(self, robot):
         """The arm, and each joint axis as a long line that moves with its link."""
@@ -165,10 +163,17 @@ class _Singularities(yours.Singularities, Explorer):
         return words(self.robot, values["theta"])
 
     def plot(self, figure, values):
-        ax, i, j = figure.subplots(), values["across"], values["up"]
-        nb04.draw_map(ax, self.robot, values["theta"], i, j)
-        at = values["theta"] * _shown_per_si(self.robot)
-        ax.plot(*at[[i, j]], "X", color="#F07A2B", mec="w", ms=11)
+        nb04.draw_map(figure.subplots(), self.robot, values["theta"], values["across"], values["up"])
+
+    def map_of(self, values):
+        """The arm, the two joints of the map, and where the others are held."""
+        chosen, held = (values["across"], values["up"]), values["theta"].copy()
+        held[[*chosen]] = 0
+        return self.robot.name, chosen, *held.round(9)
+
+    def here(self, values):
+        """The arm as a point of the map."""
+        return (values["theta"] * _shown_per_si(self.robot))[[values["across"], values["up"]]]
 
     def step(self, dx, dy):
         """By arrow keys: five degrees, or fifty millimetres."""

@@ -241,55 +241,84 @@ function table(model, el) {
   draw();
 }
 
-function picture(model, el) {
-  const image = element("img", { class: "ck-plot" });
-  const frame = element("div", { class: "ck-map" }, image);
-  const caption = element("figcaption", {});
+// A figure in the page's own ink, and marks over it, which move without it.
+function plot(model, el) {
+  const key = unique("plot");
+  const drawing = element("div", { role: "img" }), marks = element("div", { class: "ck-marks", "aria-hidden": "true" });
+  const frame = element("div", { class: "ck-plot" }, drawing, marks);
+  const numbers = element("table", { class: "ck-table" }), caption = element("figcaption");
+  const fold = element("summary", own, "numbers of this plot");
+  const details = element("details", {}, fold, element("div", { ...own, class: "ck-scroll", tabindex: 0 }, numbers));
   const draw = () => {
-    const data = model.get("png");
-    const url = URL.createObjectURL(new Blob([data], { type: "image/png" }));
-    const old = image.src;
-    image.onload = () => old && URL.revokeObjectURL(old);
-    image.src = url;
-    image.alt = model.get("alt");
+    drawing.innerHTML = model.get("svg").replace(/( id="|url\(#|href="#)/g, `$1${key}-`); // every view has its own names
+    drawing.setAttribute("aria-label", model.get("alt"));
     caption.textContent = model.get("caption");
+    const [title, ...rows] = model.get("numbers");
+    details.hidden = !title;
+    numbers.replaceChildren(element("caption", {}, ...(title || [])), ...rows.map((row, i) => (
+      element("tr", {}, ...row.map((cell) => (i ? element("td", {}, cell) : element("th", { scope: "col" }, cell)))))));
   };
-  if (model.get("clickable")) {
-    image.classList.add("ck-clickable");
-    image.addEventListener("click", (event) => {
-      const area = image.getBoundingClientRect();
-      const x = (event.clientX - area.left) / area.width, y = 1 - (event.clientY - area.top) / area.height;
-      model.send({ type: "click", x, y }); // fractions of the picture, from its lower left corner
+  const place = () => {
+    const cursor = model.get("cursor");
+    while (marks.children.length > cursor.length) marks.lastChild.remove();
+    while (marks.children.length < cursor.length) marks.append(element("span"));
+    cursor.forEach(([x, low, high], i) => {
+      const mark = /** @type {HTMLElement} */ (marks.children[i]);
+      mark.className = high > low ? "ck-across" : "ck-spot";
+      Object.assign(mark.style, { left: `${100 * x}%`, bottom: `${100 * low}%`, height: `${100 * (high - low)}%` });
     });
-    const help = "arrow keys move the arm on this map, with Shift in small steps";
-    const asked = { ...own, tabindex: 0, role: "application", "aria-roledescription": "map", "aria-label": help, title: help };
-    for (const [name, value] of Object.entries(asked)) frame.setAttribute(name, value);
-    keepKeys(frame);
-    frame.addEventListener("keydown", (event) => {
-      const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-      if (!way) return;
-      event.preventDefault();
-      const [dx, dy] = way.map((d) => (event.shiftKey ? d / 5 : d));
-      model.send({ type: "step", dx, dy });
-    });
-  }
-  const theme = () => { // the kernel draws it for a dark page anew
-    const dark = document.body.dataset.jpThemeLight === "false";
-    if (dark === model.get("dark")) return;
-    model.set("dark", dark);
-    model.save_changes();
   };
-  const watch = new MutationObserver(theme);
-  watch.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light"] });
-  theme();
-  el.append(element("figure", { class: "ck-figure" }, frame, caption));
-  image.style.width = `${model.get("width")}px`;
-  model.on("change:png", draw);
+  frame.style.width = `${model.get("width")}px`;
+  if (model.get("clickable")) takeHands(model, frame);
+  if (model.get("walkable")) takeArrows(model, frame);
+  keepKeys(details);
+  el.append(element("figure", { class: "ck-figure" }, frame, caption, details));
+  model.on("change:svg", draw);
+  model.on("change:cursor", place);
   draw();
-  return () => watch.disconnect();
+  place();
 }
 
-const makers = { slider, choice, toggle, action, text, table, picture, formula };
+// A click on a plot, or a drag: from anywhere by the mouse, by touch from a mark alone, since a swipe scrolls the page.
+function takeHands(model, frame) {
+  let held = null; // "drag" or, until the finger leaves, "tap"
+  const point = (event, live) => {
+    const area = frame.getBoundingClientRect(); // fractions from its lower left corner
+    const x = (event.clientX - area.left) / area.width, y = 1 - (event.clientY - area.top) / area.height;
+    tell(model, { pointed: { x, y, live, count: model.get("touched") } });
+  };
+  frame.classList.add("ck-clickable");
+  frame.addEventListener("pointerdown", (event) => {
+    if (event.button || !event.isPrimary) return;
+    held = event.pointerType !== "touch" || event.target.closest(".ck-spot") ? "drag" : "tap";
+    if (held === "drag") frame.setPointerCapture(event.pointerId);
+  });
+  frame.addEventListener("pointermove", (event) => held === "drag" && point(event, true));
+  frame.addEventListener("pointerup", (event) => {
+    if (held) point(event, false);
+    held = null;
+  });
+  frame.addEventListener("pointercancel", () => {
+    if (held === "drag") tell(model, { pointed: { ...model.get("pointed"), live: false } });
+    held = null;
+  });
+}
+
+function takeArrows(model, frame) {
+  const help = "arrow keys move the arm on this map, with Shift in small steps";
+  const asked = { ...own, tabindex: 0, role: "application", "aria-roledescription": "map", "aria-label": help, title: help };
+  for (const [name, value] of Object.entries(asked)) frame.setAttribute(name, value);
+  keepKeys(frame);
+  frame.addEventListener("keydown", (event) => {
+    const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    if (!way) return;
+    event.preventDefault();
+    const [dx, dy] = way.map((d) => (event.shiftKey ? d / 5 : d));
+    model.send({ type: "step", dx, dy });
+  });
+}
+
+const makers = { slider, choice, toggle, action, text, table, plot, formula };
 
 export default {
   render({ model, el }) {

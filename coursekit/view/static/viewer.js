@@ -14,6 +14,7 @@ export default function () {
       content.keys.forEach((key, i) => commands.set(key, bytesOf(buffers[i]).slice()));
       for (const view of views) view.change(content.delete, buffers.map(bytesOf));
     }
+    if (content.type === "rest") for (const view of views) view.rest(content.frame);
     if (content.type === "png" && !views.size) first = bytesOf(buffers[0]).slice();
     if (content.type === "png") for (const view of views) view.picture(bytesOf(buffers[0]));
   }
@@ -201,6 +202,7 @@ export default function () {
           pointer.show();
         },
         picture() {},
+        rest: player.step,
       };
       viewer.set_3d_pane_size();
       view.change([], [...commands.values()]);
@@ -248,6 +250,7 @@ function keys(key, camera, player, home) {
 function showFirst(model, pane, cover, views, drawn) {
   const view = {
     change() {},
+    rest() {},
     picture(bytes) {
       const image = element("img", { class: "ck-cover", alt: "" });
       image.onload = () => URL.revokeObjectURL(image.src);
@@ -286,6 +289,7 @@ function showPicture(model, pane, buttons, views, player, error) {
   };
   const view = {
     change: ask,
+    rest: player.step,
     picture(bytes) {
       URL.revokeObjectURL(image.src);
       image.src = URL.createObjectURL(new Blob([bytes], { type: "image/png" }));

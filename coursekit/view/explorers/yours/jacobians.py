@@ -175,5 +175,5 @@ class Jacobians(Explorer):
 
     def _play(self):
         if self.run is not None:
-            self.running = True
+            self.playing = "yours"
             self.panel.play(self.run, fps=2.0, follow=self.draw)
