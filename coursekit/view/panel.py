@@ -98,7 +98,6 @@ class Panel(ipywidgets.VBox):
         self._quiet, self._was_put = False, False
         self.motion: Motion | None = None
         self._played = False  # whether it ran when the page last said so
-        self._held = False  # a hand drags on a plot
         self._stale: list = []  # plots that wait until a drag ends
         self.live = False  # more values follow at once
         self.late = False  # and the scene waits for the last of them
@@ -160,7 +159,7 @@ class Panel(ipywidgets.VBox):
                 self._put(values)
                 if not all(isinstance(self._controls[name], parts.Toggle) for name in values):
                     self._end_motion()
-                self.refresh(live=self._held)
+                self.refresh(live=any(getattr(plot, "held", False) for plot in self.below))
             except Exception as error:  # a value that is refused moves nothing
                 self._put(before)
                 self.refresh()
@@ -237,7 +236,7 @@ class Panel(ipywidgets.VBox):
             self.motion.frame = min(max(int(frame), 0), len(self.motion.thetas) - 1)
             with self._silence():
                 self.viewer.rest_at(self.motion.frame)
-            self.refresh(live=self._held)
+            self.refresh()
 
     # -- what a notebook stores
 
@@ -357,13 +356,8 @@ class Panel(ipywidgets.VBox):
     def _pointed(self, change):
         """A click on a plot, or a hand that drags there."""
         with self._lock:
-            told = change.new
-            self._held = told["live"]
-            try:
-                change.owner.point_at(told["x"], told["y"], told["live"])
-            finally:
-                self._held = False
-            if not told["live"]:
+            change.owner.point_at(**change.new)
+            if not change.new["live"]:
                 self._catch_up()
 
     def _end_motion(self):

@@ -93,7 +93,7 @@ class Plot(anywidget.AnyWidget):
         self._size = size
         self._figure: Figure | None = None
         self._shown: Hashable = None  # the key of what is drawn
-        self._held = False  # by a hand that drags
+        self.held = False  # by a hand that drags
         self._cost = 0.0  # seconds of the last drawing
         self._drawn_at = 0.0
         can = {"clickable": on_click is not None, "walkable": on_step is not None}
@@ -114,14 +114,15 @@ class Plot(anywidget.AnyWidget):
         """While a slider is dragged: would a refresh leave most of the time to the robot?"""
         return not self._is_old(values) or time.monotonic() - self._drawn_at > 4 * self._cost
 
-    def point_at(self, x: float, y: float, live: bool) -> None:
+    def point_at(self, x: float, y: float, live: bool, count: int = 0) -> None:
         """A hand points at fractions (x, y) of the picture, from the lower left; `live`: it will go on."""
         inside = self._inside(np.array([x, y]) * self._extent())
-        if self.on_click and (self._held or np.all((inside >= 0) & (inside <= 1))):
+        counts = self.held or np.all((inside >= 0) & (inside <= 1))
+        self.held = bool(live and counts)
+        if self.on_click and counts:
             axes = self._axes()
             on_edge = axes.transAxes.transform(np.clip(inside, 0, 1))  # where a drag has left the axes
             at = axes.transData.inverted().transform(on_edge)
-            self._held = live
             self.on_click(float(at[0]), float(at[1]))
 
     def __repr__(self) -> str:

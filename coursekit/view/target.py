@@ -45,7 +45,7 @@ class PoseSliders(Sliders):
             slider.bands = [[[slider.shown_per_si * x for x in run] for run in runs] for runs in bands]
         self._cost = min(self._cost, time.monotonic() - begun)
 
-    def has_time(self) -> bool:
+    def has_time(self, _values: dict) -> bool:
         """While a slider is dragged: are bands quick?"""
         return self._cost < QUICK
 
