@@ -233,9 +233,9 @@ class Panel(ipywidgets.VBox):
         with self._lock:
             if self.motion is None:
                 raise ValueError(f"panel {self.name!r} has no motion")
-            self.motion.frame = min(max(int(frame), 0), len(self.motion.thetas) - 1)
             with self._silence():
-                self.viewer.rest_at(self.motion.frame)
+                self.viewer.rest_at(min(max(int(frame), 0), len(self.motion.thetas) - 1))
+            self.motion.frame = self.viewer.frame
             self.refresh()
 
     # -- what a notebook stores

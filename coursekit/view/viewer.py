@@ -209,10 +209,11 @@ class Viewer(anywidget.AnyWidget):
             }
 
     def rest_at(self, frame: int) -> None:
-        """Show this frame of the motion and stop there."""
-        with self.hold_sync():
-            self.frame, self.playing = frame, False
-        self.send({"type": "rest", "frame": frame})  # a page that plays is ahead of what the kernel knows
+        """Show this frame of the motion; a page that plays it stops there, and then says so."""
+        if self.playing:  # the page is ahead of what is known here
+            self.send({"type": "rest", "frame": frame})
+        else:
+            self.frame = frame
 
     def forget(self) -> None:
         """Let go of what was drawn, once the viewer is closed."""

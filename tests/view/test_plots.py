@@ -296,3 +296,16 @@ def test_newtons_errors_are_told(opened):
         r"angle \[rad\]: from 2\.62 to [\d.]+e-1\d, lowest [\d.]+e-1\d, highest 2\.81\.", plot.alt
     )
     assert [row[0] for row in plot.numbers[2:]] == [str(k) for k in range(12)]
+
+
+def test_a_page_that_plays_is_asked_to_stop_where_a_click_is_and_says_when_it_has(opened, monkeypatch):
+    panel, plot = opened("explore_path")
+    sent = []
+    monkeypatch.setattr(panel.viewer, "send", lambda content, buffers=None: sent.append(content))
+    as_the_browser(panel.viewer, frame=5, playing=True)
+    point(plot, 1.0, 10)
+    as_the_browser(panel.viewer, frame=7)  # what was under way already
+    (asked,) = [content for content in sent if content["type"] == "rest"]
+    assert panel.viewer.playing and panel.motion.frame == 7
+    as_the_browser(panel.viewer, frame=asked["frame"], playing=False)
+    assert panel.motion.frame == asked["frame"] == 55
