@@ -8,12 +8,15 @@ SHOWN: dict[Any, tuple] = {}  # panel -> (name, cell, run of the cell)
 
 
 def running() -> tuple[str | None, str | None]:
-    """The notebook cell that runs now, and which of its runs this is, where the front end tells it."""
+    """The notebook cell that runs now, and which of its runs this is; None where no notebook runs.
+
+    Voila and nbconvert do not name the cell: then it is known by its code.
+    """
     with contextlib.suppress(Exception):
         from IPython import get_ipython
 
         parent = get_ipython().kernel.get_parent()
-        return parent["metadata"]["cellId"], parent["header"]["msg_id"]
+        return parent["metadata"].get("cellId", parent["content"]["code"]), parent["header"]["msg_id"]
     return None, None
 
 

@@ -346,6 +346,19 @@ def test_two_panels_of_one_cell_live_and_both_go_when_it_runs_again(made, monkey
     assert (one.scene, other.scene) == (None, None) and third.scene is not None
 
 
+def test_where_nobody_names_the_cell_another_cell_closes_nothing(tmp_path):
+    """As in Voila and nbconvert: two cells, then the first once more."""
+    import nbformat
+    from nbclient import NotebookClient
+
+    show = "from coursekit import view\nfirst = view.explore()"
+    cells = [show, "second = view.explore()", "was = first", show]
+    cells += ["print([panel.scene is not None for panel in (was, second, first)])"]
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
+    NotebookClient(notebook, kernel_name="python3", timeout=120).execute(cwd=str(tmp_path))
+    assert notebook.cells[-1].outputs[0]["text"].strip() == "[False, True, True]"
+
+
 def test_a_picture_is_drawn_between_two_changes_and_never_during_one(made, monkeypatch):
     import threading
 
