@@ -26,6 +26,19 @@ NEXT_FRAME = """async (key) => {
 }"""
 
 
+# The labels that are shown, and those of them that a handle covers.
+UNDER_A_HANDLE = """() => {
+    const shown = (kind) => [...document.querySelectorAll(kind)]
+        .filter((one) => one.style.display !== "none" && one.style.visibility !== "hidden")
+        .map((one) => ({ text: one.textContent, box: one.getBoundingClientRect() }));
+    const labels = shown(".ck-label"), handles = shown(".ck-handle");
+    const meet = ({ box: a }, { box: b }) => a.left < b.right - 1 && a.right > b.left + 1
+        && a.top < b.bottom - 1 && a.bottom > b.top + 1;
+    const covered = labels.filter((label) => handles.some((handle) => meet(label, handle)));
+    return [labels, covered].map((all) => all.map(({ text }) => text));
+}"""
+
+
 @pytest.mark.parametrize("busy", [False, True])
 def test_the_arm_follows_its_slider_in_the_next_frame(notebook, lab, busy):
     notebook.open(lab.write(f"next{busy}.ipynb", IMPORT, "panel = view.explore(robots.kuka_kr6())\npanel"))
@@ -110,6 +123,8 @@ def test_the_formula_of_a_page_points_into_its_picture(offline):
     assert page.evaluate(SEEN, paths) == paths
     meaning = page.locator(".ck-meaning")
     assert meaning.inner_text().startswith("column 3: joint 3 at 1 rad/s moves the tool point by (")
+    page.wait_for_function(f"() => ({UNDER_A_HANDLE})()[0].includes('v3')")  # once a frame is drawn
+    assert page.evaluate(UNDER_A_HANDLE)[1] == []  # where the label belongs stands the handle of the tool
 
     page.locator("[role=slider]").first.press(
         "PageUp"

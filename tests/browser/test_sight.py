@@ -154,6 +154,27 @@ def test_axe_finds_nothing(opened, theme):
     assert found == []
 
 
+def test_on_a_narrow_screen_the_small_figures_stand_below_the_picture_and_above_the_controls(lab, open_page):
+    notebook = open_page(viewport={"width": 412, "height": 900})
+    notebook.open(lab.write("narrow.ipynb", IMPORT, "view.explore_inverse()"))
+    notebook.command("application:toggle-left-area")
+    notebook.run_all()
+    notebook.wait_view()
+    page = notebook.page
+    page.evaluate("() => document.querySelector('.ck-panel').scrollIntoView({ block: 'start' })")
+    page.wait_for_timeout(500)
+    outer = page.locator(".jp-WindowedPanel-outer").bounding_box()
+    tops = [outer["y"] - 1]
+    for part in (".ck-viewer", ".ck-figures", ".ck-column"):
+        box = page.locator(part).bounding_box()
+        tops += [box["y"], box["y"] + box["height"]]
+    assert tops == sorted(tops) and tops[-1] <= outer["y"] + outer["height"]
+    last = page.locator(".ck-one").last
+    last.focus()  # the row scrolls to it
+    box = last.bounding_box()
+    assert outer["x"] <= box["x"] and box["x"] + box["width"] <= outer["x"] + outer["width"]
+
+
 def test_yours_follows_the_sliders(lab, open_page):
     notebook = open_page()
     notebook.open(lab.write("mine.ipynb", IMPORT, MINE))

@@ -28,16 +28,16 @@ function makeLabels(THREE, viewer, pane, renderer) {
       labels.sort((a, b) => b.isWord - a.isWord);
       layer.replaceChildren(...labels.map((label) => label.span));
     },
-    place() {
+    place(handles) {
       const { width, height } = renderer.size(); // not the pane's: that is 0 while JupyterLab moves the cell about
-      const taken = [];
+      const taken = [...handles]; // buttons, which nothing may hide
       for (const { span, pos, path, isWord, wide } of labels) {
         const object = viewer.scene_tree.find(path).object;
         point.set(...pos).applyMatrix4(object.matrixWorld).project(viewer.camera);
         const x = ((point.x + 1) / 2) * width;
         let y = ((1 - point.y) / 2) * height;
         // words give way to each other, downwards; the letters of axes and the scale of the grid, by not being there
-        const isTaken = () => taken.some((other) => Math.abs(other.x - x) < (other.wide + wide) / 2 && Math.abs(other.y - y) < 13);
+        const isTaken = () => taken.some((other) => Math.abs(other.x - x) < (other.wide + wide) / 2 && Math.abs(other.y - y) < (other.high || 13));
         let shown = point.z < 1 && visible(object);
         while (shown && isWord && isTaken()) y += 13;
         shown = shown && !isTaken();

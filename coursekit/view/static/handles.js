@@ -252,18 +252,20 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
       target.sliders.forEach((slider, k) => slider.set("value", Number((held[k] * target.per[k]).toPrecision(15))));
       viewer.set_transform(target.path, targetPose());
     },
-    draw() {
-      const { width, height } = renderer.size();
+    draw() { // gives where they stand
+      const { width, height } = renderer.size(), shownAt = [];
       lines.setAttribute("viewBox", `0 0 ${width} ${height}`);
       for (const { node, line, grip } of drawn) {
         const [x, y, z] = project(grip.place());
         const ends = grip.path().map(project);
         const turned = ends.length === 2 && Math.hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]) < 18; // towards us
         const shown = z < 1 && !turned && x > 0 && y > 0 && x < width && y < height;
+        if (shown) shownAt.push({ x, y, wide: 10 + 7 * grip.text.length, high: 19 });
         for (const part of [node, line]) part.style.visibility = shown ? "" : "hidden";
         node.style.transform = `translate(-50%, -50%) translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
         line.setAttribute("points", ends.map(([px, py]) => `${px.toFixed(1)},${py.toFixed(1)}`).join(" "));
       }
+      return shownAt;
     },
     end() {
       over = true;

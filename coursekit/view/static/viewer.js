@@ -144,7 +144,7 @@ export default function () {
         slid = false;
         player.tick(now);
       });
-      stage.afterFrame.push(labels.place, handles.draw, uncover);
+      stage.afterFrame.push(() => labels.place(handles.draw()), uncover);
 
       const onPose = () => {
         moving = model.get("moving").map(splitPath);
