@@ -202,5 +202,8 @@ def test_bands_follow_a_drag_only_where_they_are_quick(panel):
 
 def test_an_arm_without_a_formula_has_no_bands():
     panel = view.explore_inverse(robots.franka_panda())
-    assert all(slider.bands == [] for slider in panel._controls["pose"].sliders)
+    target = panel._controls["pose"]
+    assert all(slider.bands == [] for slider in target.sliders)
+    target.sliders[0].set_state({"value": target.sliders[0].value + 10, "live": True})
+    assert target not in panel._stale  # which would draw everything once more when the drag ends
     panel.close()
