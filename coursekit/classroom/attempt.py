@@ -33,6 +33,8 @@ from .plain import in_plain_words
 from .source import catches_everything
 
 LINES = 200_000  # of the student's, in one call
+COST = 3_000_000  # of lines and calls together, where a loop of the student's has run for MANY lines
+MANY = 2_000
 SECONDS = 20.0  # a backstop, for lines that take very long
 CALL = 8  # a call of a library costs as much as so many lines
 SHOWN = 4  # variables told beside an error
@@ -161,7 +163,8 @@ class _Watch:
         self.lines += event == "line"
         self.cost += event == "line"
         late = self.lines % 1000 == 0 and time.monotonic() > self.end
-        if (self.lines > LINES or late) and not catches_everything(frame):
+        dear = self.lines > MANY and self.cost > COST
+        if (self.lines > LINES or dear or late) and not catches_everything(frame):
             self.frame, self.line = frame, frame.f_lineno
             raise Endless
         return self._line
@@ -178,7 +181,8 @@ def _endless(watch: _Watch) -> Attempt:
     if watch.frame is None:
         return Attempt(fault="error", text="it does not end", endless=True)
     code, line = watch.frame.f_code, watch.line - watch.frame.f_code.co_firstlineno + 1
-    text = f"it does not end: after {LINES:,} lines it is still in line {line} of {code.co_name}"
+    lines = min(watch.lines, LINES)
+    text = f"it does not end: after {lines:,} lines it is still in line {line} of {code.co_name}"
     return Attempt(fault="error", text=text + _source_line(code, watch.line), endless=True)
 
 
@@ -247,4 +251,5 @@ def _brief(name: str, value: Any) -> str:
         return f"{name} is {value}"
     if isinstance(value, float | int | np.number):
         return f"{name} = {value:.4g}"
-    return f"{name} is {value!r}"[:40]
+    shown = repr(value)
+    return f"{name} is {shown}" if len(shown) <= 30 else f"{name} is a {type(value).__name__}"

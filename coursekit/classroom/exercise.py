@@ -7,7 +7,7 @@ that commit its typical mistakes in `mistakes/`, which students do not get.
 from __future__ import annotations
 
 import difflib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 KINDS = ("close", "angle", "rotation", "up_to_sign", "columns_up_to_sign", "set", "any_solution")
 USUAL = "for ordinary numbers"
+NONE = "it returns None"
 
 
 @dataclass(frozen=True)
@@ -202,7 +203,7 @@ class Misfit(Exception):
 def answer(exercise: Exercise, value: object) -> list[np.ndarray]:
     """The returned value as float arrays, one for each returned thing; Misfit if it is none."""
     if value is None:
-        raise Misfit("it returns None: is there a `return` at its end?")
+        raise Misfit(f"{NONE}: is there a `return` at its end?")
     if not exercise.several:
         return [_numbers(value)]
     if not isinstance(value, list | tuple) or len(value) != len(exercise.shapes):
@@ -216,13 +217,18 @@ def _numbers(value) -> np.ndarray:
         value, "__array__"
     ):
         # whatever else can be indexed, numpy would read to its end, which some things have not (np.r_)
-        raise Misfit(f"the answer ({type(value).__name__}) is not an array of numbers")
+        made_once = ", but something that makes them one by one: return list(...) of it"
+        text = made_once if isinstance(value, Iterator) else ""
+        raise Misfit(f"the answer ({type(value).__name__}) is not an array of numbers{text}")
     try:
         array = np.asarray(value)
     except Exception:  # ragged lists, objects that refuse
-        raise Misfit(f"the answer ({type(value).__name__}) is not an array of numbers") from None
+        things = f": it holds {len(value)} things of different shapes" if isinstance(value, tuple) else ""
+        raise Misfit(f"the answer ({type(value).__name__}) is not an array of numbers{things}") from None
     if array.dtype.kind == "c":
-        raise Misfit("the answer is complex; real numbers are expected (a root of a negative number?)")
+        raise Misfit(
+            "the answer is complex, real numbers are expected: a root of a negative number, or np.linalg.eig?"
+        )
     if array.dtype.kind not in "biuf":
         raise Misfit(f"the answer has dtype {array.dtype}; numbers are expected")
     return array.astype(float)

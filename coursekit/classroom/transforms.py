@@ -261,7 +261,7 @@ def _scaled(exercise: Exercise, examples: list, answers: list) -> Iterator[tuple
     if right.shape != mine.shape or not np.isfinite(mine).all() or sizes[k] == 0:
         return
     factor = float(np.vdot(right, mine) / sizes[k])
-    if abs(factor) > 1e-9:
+    if abs(factor) > 1e-9 and f"{factor:.4g}" != "1":
         times = _times(factor)
         yield f"your answer is {times} the right one", lambda parts: tuple(factor * p for p in parts)
     shift = float(np.mean(mine - right))

@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 from . import compare
 from .already import not_a_pose, what_is_right
 from .attempt import Attempt, line_of_nan
-from .exercise import Exercise, misshapen, thaw
+from .exercise import NONE, Exercise, misshapen, thaw
 from .library import permitted
 from .plain import in_plain_words
 from .repair import Found, repair
@@ -108,6 +108,8 @@ def verdict(
         return Verdict("named", hint.text, step=hint.key, example=first)
     if text := _other_length(exercise, examples, answers):
         return Verdict("misfit", text, step="length", example=first)
+    if any(good) and (found := _not_finite(exercise, examples, answers, function, good)):
+        return found
     also = _already_and_residual(exercise, examples, answers, good, function)
     if function and (text := _ignored(exercise, function)):
         return Verdict("named", text, also, "ignored", first)
@@ -126,6 +128,13 @@ def verdict(
 
 # ---- 1: it cannot be judged
 
+RESHAPED: tuple[tuple[str, Callable[[Parts], Parts]], ...] = (
+    ("Rows and columns have changed places: x.T turns them", lambda parts: tuple(p.T for p in parts)),
+    ("The numbers are right: x.ravel() has them in one row", lambda parts: tuple(p.ravel() for p in parts)),
+    ("The number is right, but in brackets: x.item() takes it out", lambda parts: (parts[0].reshape(()),)),
+    ("The results stand in another order", lambda parts: parts[::-1]),
+)
+
 
 def _cannot_be_judged(exercise: Exercise, examples: list[Example], attempts: list[Attempt]) -> Verdict | None:
     for k, attempt in enumerate(attempts):
@@ -137,9 +146,27 @@ def _cannot_be_judged(exercise: Exercise, examples: list[Example], attempts: lis
             return Verdict("misfit", text, step="changed", example=k)
     for k, attempt in enumerate(attempts):
         if attempt.fault:
-            text = _only_there(examples, attempts, k) + attempt.text
+            text = attempt.text
+            if text.startswith(NONE) and not all(a.fault for a in attempts):
+                text = f"{NONE} in some cases and not in others: a branch has no `return`, or none is taken"
+            text = (
+                _only_there(examples, attempts, k) + text + _but_for_the_shape(exercise, examples, attempts)
+            )
             return Verdict(attempt.fault, text, step=attempt.fault, example=k)
     return None
+
+
+def _but_for_the_shape(exercise: Exercise, examples: list[Example], attempts: list[Attempt]) -> str:
+    """'' or how the right numbers, which came in another shape on every example, get into theirs."""
+    if not all(a.parts for a in attempts):
+        return ""
+    for text, change in RESHAPED:
+        try:
+            if all(e.agrees(change(a.parts)) for e, a in zip(examples, attempts, strict=True)):
+                return f". {text}"
+        except ValueError:  # the shapes do not fit like this either
+            continue
+    return ""
 
 
 def _only_there(examples: list[Example], attempts: list[Attempt], k: int) -> str:
@@ -160,9 +187,10 @@ def _other_length(exercise: Exercise, examples: list[Example], answers: list[Par
     return ""
 
 
-def _not_finite(exercise: Exercise, examples, answers, function) -> Verdict | None:
+def _not_finite(exercise: Exercise, examples, answers, function, good=None) -> Verdict | None:
+    """With `good`: only where nothing else is wrong, so that no edit is guessed which happens to hide it."""
     bad = [not all(np.isfinite(part).all() for part in parts) for parts in answers]
-    if not any(bad):
+    if not any(bad) or (good is not None and any(g == b for g, b in zip(good, bad, strict=True))):
         return None
     k = bad.index(True)
     cases = list(dict.fromkeys(e.case for e, b in zip(examples, bad, strict=True) if b))
@@ -190,10 +218,13 @@ def _right(examples: list[Example], attempts: list[Attempt], allowed: tuple[str,
 def _named(exercise: Exercise, examples: list[Example], answers: list[Parts]):
     """A mistake is recognised by all examples at once: on some of them it may happen to be right.
 
-    Where the student's function raises, the others must do: at least three of them, and most.
+    Where the student's function raises, the others must do: at least three of them, and most; and one of
+    them must be wrong, or the mistake is a guess.
     """
     known = [(e, _rows(exercise, parts)) for e, parts in zip(examples, answers, strict=True) if parts]
     if len(known) < max(3, len(examples) / 2) and len(known) < len(examples):
+        return None
+    if all(e.agrees(parts) for e, parts in known):
         return None
     for hint in exercise.hints:
         if all(hint.key in e.wrong and e.agrees(parts, e.wrong[hint.key]) for e, parts in known):

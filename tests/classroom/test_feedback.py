@@ -1,8 +1,9 @@
 """The proof that `check` meets the student: no wrong answer is accepted, nearly all are named or placed.
 
 `wrong/played.json` holds 306 wrong answers written while the released notebooks were played as a student
-would, without a look at the rest; the other files hold those that their authors thought of while they wrote
-the feedback. `right/` holds right versions of every exercise in other styles.
+would, without a look at the rest; `wrong/slips.json` those of 492 such answers that taught something, and
+what is to be said of them; the other files hold those that their authors thought of while they wrote the
+feedback. `right/` holds right versions of every exercise in other styles.
 """
 
 from __future__ import annotations
@@ -77,6 +78,15 @@ def test_no_wrong_answer_is_accepted_and_nearly_all_are_helped(file, readable):
     helped = sum(count[kind] for kind in HELPED)
     left = [f"{row['exercise']}: {row['label']}" for row, found in rows if found.kind not in HELPED]
     assert helped >= 0.95 * len(rows), (count, left)
+
+
+def test_a_slip_is_told_in_the_words_that_it_was_given():
+    missed = [
+        f"{row['exercise']}, {row['label']}: {found.text}"
+        for row, found in judged(HERE / "wrong" / "slips.json")
+        if row["say"] not in " ".join(found.text.split())
+    ]
+    assert not missed, "\n\n".join(missed)
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda path: path.stem)

@@ -215,6 +215,12 @@ def _ranges(rng, n=None, sense=None):
     return np.column_stack([lower, upper]), sense, np.pi / 2 * rng.integers(-1, 3, n)
 
 
+def _beyond_zero(rng):
+    """Ranges that do not hold the maker's zero: both ends on one side of it."""
+    limits, sense, at_zero = _ranges(rng, 4)
+    return np.sort(rng.choice([-1, 1], (4, 1)) * np.abs(limits), axis=1), sense, at_zero
+
+
 def _s030(rng):
     limits = np.radians([(-180, 180), (-105, 140), (-155, 135), (-360, 360), (-145, 145), (-360, 360)])
     return limits, np.array([1.0, -1, 1, 1, 1, 1]), np.pi / 2 * np.array([0, 1, 1, 2, 2, 0])
@@ -224,6 +230,7 @@ RANGES = (
     Edge("where every sense agrees", lambda rng: _ranges(rng, 4, 1.0)),
     Edge("where no sense agrees", lambda rng: _ranges(rng, 4, -1.0)),
     Edge("for one joint", lambda rng: _ranges(rng, 1, -1.0)),
+    Edge("where the maker's zero is outside the range", _beyond_zero),
     Edge("for the S030", _s030),
     Edge(
         "for whole numbers",

@@ -30,6 +30,14 @@ def reached(rng, front=True, folded=False):
             return p, t1, t3, lengths
 
 
+def beside(rng):
+    """P straight beside axis 1: p_x is 0, and theta_1 a right angle."""
+    p, t1, t3, lengths = reached(rng)
+    side = rng.choice([-1, 1])
+    out = p[0] * np.cos(t1) + p[1] * np.sin(t1)
+    return [0.0, side * out, p[2]], side * np.pi / 2, t3, lengths
+
+
 def the_exam(rng):
     return [1.23, 0.0, 1.55], 0.0, 0.0, S030
 

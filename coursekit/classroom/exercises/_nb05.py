@@ -106,6 +106,8 @@ def planar_velocity_missed(args, value, right) -> str:
     told = (told if fits else "") + f"your tool moves at {np.linalg.norm(v_B):.3g} m/s"
     turned = degrees_between(v_B, right_B)
     if np.isclose(np.linalg.norm(v_B), np.linalg.norm(right_B), rtol=1e-3):
+        if turned < 1:
+            return f"your v_B is off by {np.linalg.norm(v_B - right_B):.1g} m/s: are its numbers rounded?"
         return f"{told}, which is right, but {turned:.0f} deg away from the right direction"
     return f"{told}; right is {np.linalg.norm(right_B):.3g} m/s"
 
@@ -180,7 +182,7 @@ def power_missed(args, value, right) -> str:
         return f"your answer has {_counted(len(value), 'torque')} for {_counted(len(right), 'joint')}"
     if not np.isfinite(value).all():
         return ""
-    i = int(np.argmax(np.abs(value - right) > 1e-3))
+    i = int(np.argmax(np.abs(value - right)))
     if abs(value[i] - right[i]) <= SMALL:
         return ""
     return (

@@ -83,6 +83,9 @@ EXERCISES = [
                 "arccos", "an arccos, or a norm as the sine, is never negative: the sense of the turn is lost"
             ),
             Hint("arctan", "arctan of a quotient knows two quadrants only: use arctan2"),
+            Hint(
+                "arcsin", "an arcsin never leaves the right half of the circle: arctan2 takes the cosine, too"
+            ),
         ),
     ),
     Exercise(
@@ -147,6 +150,10 @@ EXERCISES = [
             Hint("signs", "axes 4 and 6 point to -x: both angles change their sign"),
             Hint(
                 "no_minus", "the first column is divided by -sin(theta5): the minus belongs to both entries"
+            ),
+            Hint("arctan", "arctan of a quotient loses which of the two was negative: arctan2 takes both"),
+            Hint(
+                "arcsin", "an arcsin never leaves the right half of the circle: arctan2 takes the cosine, too"
             ),
             Hint("one_only", "that is one of the two solutions: the wrist can bend to the other side"),
             Hint("half_flip", "with theta5 negative, joints 4 and 6 have to turn by half a turn as well"),

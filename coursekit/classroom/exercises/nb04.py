@@ -6,6 +6,7 @@ import numpy as np
 
 from coursekit.classroom.exercise import Block, Edge, Exercise, Hint
 from coursekit.classroom.exercises import _nb04 as _exam
+from coursekit.classroom.exercises import _nb04_rank as _rank
 from coursekit.classroom.exercises import looks
 from coursekit.classroom.exercises._arm import KR6, deg, mm, wrist_in_plane
 
@@ -23,10 +24,6 @@ ALLOW = (
 )
 
 NONE = 1e-6  # metres, radians, lengths of twists: less is rounding
-
-
-def _orthogonal(rng, n=6):
-    return np.linalg.qr(rng.normal(size=(n, n)))[0]
 
 
 # ---- det_from_blocks
@@ -133,69 +130,16 @@ def _off_axis_1(args, value, right):
     return f"put back into the arm, your angle leaves the wrist centre {mm(abs(out))} {where} axis 1"
 
 
-# ---- rank
-
-
-def _matrix(rng, sigma, columns=6):
-    """6 rows, these singular values."""
-    U, V = _orthogonal(rng), _orthogonal(rng, columns)
-    n = len(sigma)
-    return U[:, :n] @ np.diag(sigma) @ V[:n]
-
-
-def _nearly_singular(rng, size=1, lost=None, small=None, columns=6):
-    """Singular values of which `lost` are nothing but rounding; one may be small and still counts."""
-    sigma = rng.uniform(0.3, 2, min(columns, 6))
-    lost = rng.integers(0, 3) if lost is None else lost
-    if small or (small is None and rng.integers(2)):
-        sigma[-1] = 1e-4 * sigma[0]
-    sigma[:lost] = 2e-8 * sigma.max()
-    return size * _matrix(rng, sigma, columns), 1e-6
-
-
-def _limit_met(rng):
-    """Nothing is larger than 1 times the largest."""
-    return _nearly_singular(rng)[0], 1.0
-
-
-def _coarse(rng):
-    return _matrix(rng, [2, 1.5, 1, 0.3, 0.1, 0.02]), 0.2
-
-
-def _fine(rng):
-    return _matrix(rng, [2, 1.5, 1, 0.3, 1e-7, 1e-14]), 1e-10
-
-
-def _nilpotent(rng):
-    return np.diag(rng.uniform(0.5, 2, 5), 1), 1e-6
-
-
-def _whole_matrix(rng):
-    J = np.eye(6, 6, dtype=int) + np.eye(6, k=1, dtype=int) * rng.integers(1, 4)
-    J[4:] = J[:2]
-    return J, 1e-6
-
-
-def _counted(args, value, right):
-    J, tol = args
-    sigma = np.linalg.svd(J)[1]
-    shown = ", ".join(f"{s / sigma[0]:.2g}" for s in sigma)
-    return (
-        f"divided by the largest, the singular values of one example are {shown}; "
-        f"{right:.0f} of them are above tol = {tol:g}, you return {value:g}"
-    )
-
-
 # ---- lost_motion
 
 
 def _singular(rng):
-    return (_matrix(rng, np.append(rng.uniform(0.3, 2, 5), 0)),)
+    return (_rank.matrix(rng, np.append(rng.uniform(0.3, 2, 5), 0)),)
 
 
 def _one_row_zero(rng):
     """The motion of this row is lost. The other rows are no longer at right angles to each other."""
-    J = _orthogonal(rng) + 0.2 * _orthogonal(rng)
+    J = _rank.orthogonal(rng) + 0.2 * _rank.orthogonal(rng)
     J[rng.integers(6)] = 0
     return (J,)
 
@@ -240,7 +184,7 @@ EXERCISES = [
         edges=(
             Edge("where J[:3, :3] is zero", _nothing_upper_left),
             Edge("where the lower left block is singular", _singular_arm),
-            Edge("where the block that counts as 0 holds other numbers", _something_lower_right),
+            Edge("where the block that counts as 0 holds other numbers", _something_lower_right, 3),
             Edge("for whole numbers", _whole_wrist_jacobian, tol=1e-6),
         ),
         residual=_by_numpy,
@@ -250,6 +194,7 @@ EXERCISES = [
             Hint("diagonal_sign", "right sign, but the blocks are those on the diagonal: take the others"),
             Hint("sizes", "a block can be singular without being 0: take its determinant, not its size"),
             Hint("arm_only", "this is the arm's block alone: the wrist has its share in det J"),
+            Hint("two_products", "the lower right block counts as 0: the product with its determinant goes"),
             Hint("whole", "that is the determinant of the whole J: use the two 3 x 3 blocks"),
         ),
     ),
@@ -320,6 +265,7 @@ EXERCISES = [
         edges=(
             Edge("for the exam's p_n", _exam.the_exam),
             Edge("where the arm bends backwards over axis 1", lambda rng: _exam.reached(rng, front=False), 2),
+            Edge("where P lies beside axis 1, p_x = 0", _exam.beside, 2),
             Edge("where cos(theta_3) is negative", lambda rng: _exam.reached(rng, folded=True), 2),
             Edge("for whole numbers", _exam.whole_exam),
         ),
@@ -334,6 +280,7 @@ EXERCISES = [
                 "front_only",
                 "bent backwards over axis 1 the arm reaches to a negative distance: use theta1, not a length",
             ),
+            Hint("divided", "p_x / cos(theta_1) is 0 / 0 where p_x is 0: p_x cos + p_y sin is r everywhere"),
             Hint(
                 "one_quadrant",
                 "an arccos or arcsin of one unknown knows half of the circle: use both unknowns",
@@ -343,31 +290,35 @@ EXERCISES = [
     Exercise(
         "rank(J, tol)",
         points=2,
-        draw=_nearly_singular,
+        draw=_rank.nearly_singular,
         shape=(),
         tol=0.1,
         samples=4,
         edges=(
-            Edge("where two motions are lost", lambda rng: _nearly_singular(rng, lost=2)),
-            Edge("where one singular value is small", lambda rng: _nearly_singular(rng, small=True)),
-            Edge("for a J that is 1000 times larger", lambda rng: _nearly_singular(rng, 1000, 1)),
-            Edge("for a J that is 1000 times smaller", lambda rng: _nearly_singular(rng, 1e-3, 1, True)),
-            Edge("for seven joints", lambda rng: _nearly_singular(rng, columns=7)),
-            Edge("for two joints", lambda rng: _nearly_singular(rng, lost=0, columns=2)),
-            Edge("for tol = 1", _limit_met),
-            Edge("for tol = 0.2", _coarse),
-            Edge("for tol = 1e-10", _fine),
-            Edge("where all eigenvalues of J are 0", _nilpotent),
-            Edge("for whole numbers", _whole_matrix),
+            Edge("where two motions are lost", lambda rng: _rank.nearly_singular(rng, lost=2)),
+            Edge("where one singular value is small", lambda rng: _rank.nearly_singular(rng, small=True)),
+            Edge("for a J that is 1000 times larger", lambda rng: _rank.nearly_singular(rng, 1000, 1)),
+            Edge("for a J that is 1000 times smaller", lambda rng: _rank.nearly_singular(rng, 1e-3, 1, True)),
+            Edge("for seven joints", lambda rng: _rank.nearly_singular(rng, columns=7)),
+            Edge("for two joints", lambda rng: _rank.nearly_singular(rng, lost=0, columns=2)),
+            Edge("for tol = 1", _rank.limit_met),
+            Edge("for tol = 0.2", _rank.coarse),
+            Edge("for tol = 1e-10", _rank.fine),
+            Edge("where all eigenvalues of J are 0", _rank.nilpotent),
+            Edge("for whole numbers", _rank.whole),
         ),
         usual="for six joints and tol = 1e-6",
-        residual=_counted,
+        residual=_rank.counted,
         hints=(
             Hint("determinant", "a determinant tells 6 from less, but not 5 from 4, and it has a unit"),
             Hint(
                 "absolute", "a fixed limit is too low for a large J: compare with the largest singular value"
             ),
             Hint("squares", "you compare squares of singular values with tol"),
+            Hint(
+                "frobenius",
+                "np.linalg.norm(J) is the root of all squares added, more than the largest singular value",
+            ),
             Hint("lost", "you counted the motions that are lost"),
         ),
     ),

@@ -103,7 +103,7 @@ EXERCISES = [
         shape=(4,),
         compare="up_to_sign",
         samples=3,
-        n=24,
+        n=26,
         blocks=tuple(Block(name, i) for i, name in enumerate("wxyz")),
         usual="for ordinary angles",
         edges=(
@@ -120,7 +120,7 @@ EXERCISES = [
             Edge("for a half turn about x", attitudes.half_turn_about(0)),
             Edge("for a half turn about y", attitudes.half_turn_about(1)),
             Edge("for a half turn about z", attitudes.half_turn_about(2)),
-            Edge("for a half turn about any line", attitudes.half_turn),
+            Edge("for a half turn about any line", attitudes.half_turn, 3),
             Edge("for a half turn about a line square to an axis", attitudes.half_turn_in_a_plane),
             Edge("for nearly half a turn", attitudes.nearly_half_a_turn),
         ),
@@ -132,6 +132,7 @@ EXERCISES = [
             ),
             Hint("y_sign", "the indices of 4wy run round the circle: r13 - r31, not r31 - r13"),
             Hint("vector_first", "the order here is (w, x, y, z): yours ends with the scalar"),
+            Hint("no_mirror", "half of the table is not printed: what stands below its diagonal mirrors it"),
             Hint(
                 "roots_only",
                 "a root has no sign: the signs of x, y and z are in the differences of entries of R",

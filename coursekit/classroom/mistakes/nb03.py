@@ -121,8 +121,10 @@ def wrist_without_minus(R):
     return right.wrist_angles(R) + [np.pi, 0, 0]
 
 
-def wrist_one_only(R):
-    return right.wrist_angles(R)[:1]
+def _wrist_of(R, change):
+    """Both solutions, after a change of the first one's angles."""
+    t4, t5, t6 = change(right.wrist_angles(R)[0])
+    return np.array([[t4, t5, t6], [t4 + np.pi, -t5, t6 + np.pi]])
 
 
 def wrist_half_flipped(R):
@@ -333,6 +335,7 @@ WRONG = {
         "sign": turn_backwards,
         "arccos": turn_by_arccos,
         "arctan": turn_by_arctan,
+        "arcsin": lambda k, x, y: np.arcsin(np.sin(right.subproblem1(k, x, y))),
     },
     "elbow_solutions": {
         "height": elbow_without_height,
@@ -347,7 +350,9 @@ WRONG = {
         "xyz": wrist_xyz,
         "signs": wrist_without_signs,
         "no_minus": wrist_without_minus,
-        "one_only": wrist_one_only,
+        "arctan": lambda R: _wrist_of(R, lambda t: np.arctan(np.tan(t))),
+        "arcsin": lambda R: _wrist_of(R, lambda t: np.where([1, 0, 1], np.arcsin(np.sin(t)), t)),
+        "one_only": lambda R: right.wrist_angles(R)[:1],
         "half_flip": wrist_half_flipped,
     },
     "all_solutions": {

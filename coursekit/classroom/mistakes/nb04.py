@@ -73,6 +73,10 @@ def theta2_to_the_front(p, theta1, theta3, lengths):
     return right.theta2_system([np.hypot(p[0], p[1]), 0, p[2]], 0, theta3, lengths)
 
 
+def theta2_by_a_quotient(p, theta1, theta3, lengths):
+    return right.theta2_system([p[0] / np.cos(theta1), 0, p[2]], 0, theta3, lengths)
+
+
 def theta2_by_arccos(p, theta1, theta3, lengths):
     return np.arccos(np.clip(_system(p, theta1, theta3, lengths)[0], -1, 1))
 
@@ -100,6 +104,7 @@ WRONG = {
         "diagonal_sign": lambda J: -blocks_on_the_diagonal(J),
         "sizes": sizes_of_the_blocks,
         "arm_only": lambda J: np.linalg.det(J[3:, :3]),
+        "two_products": lambda J: blocks_on_the_diagonal(J) - blocks_without_sign(J),
         "whole": lambda J: np.linalg.det(J),
     },
     "elbow_angle": {
@@ -126,12 +131,14 @@ WRONG = {
         "no_d1": lambda p, theta1, theta3, lengths: theta2_without(p, theta1, theta3, lengths, 1),
         "one_sign": theta2_with_one_sign,
         "front_only": theta2_to_the_front,
+        "divided": theta2_by_a_quotient,
         "one_quadrant": theta2_by_arccos,
     },
     "rank": {
         "determinant": rank_by_determinant,
         "absolute": lambda J, tol: int((np.linalg.svd(J)[1] > tol).sum()),
         "squares": rank_by_squares,
+        "frobenius": lambda J, tol: int((np.linalg.svd(J)[1] > tol * np.linalg.norm(J)).sum()),
         "lost": rank_of_the_lost,
     },
     "lost_motion": {

@@ -111,6 +111,13 @@ def quaternion_with_y_turned(R):
     return line / np.linalg.norm(line)
 
 
+def quaternion_of_half_the_table(R):
+    q = right.quaternion(R)
+    k = int(np.argmax(np.abs(q)))
+    q = np.where(np.arange(4) < k, 0, q)
+    return q / np.linalg.norm(q)
+
+
 def quaternion_vector_first(R):
     return np.roll(right.quaternion(R), -1)
 
@@ -276,6 +283,7 @@ WRONG = {
         "wrong_entries": quaternion_as_printed,
         "y_sign": quaternion_with_y_turned,
         "vector_first": quaternion_vector_first,
+        "no_mirror": quaternion_of_half_the_table,
         "roots_only": quaternion_roots_only,
         "lost_at_half_turn": quaternion_signs_of_differences,
         "divided_by_w": quaternion_divided_by_w,

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .sandbox import TICK
-from .variants import INDEXERS, MAKERS, SIZES, Variant, called, whole
+from .variants import INDEXERS, MAKERS, SIZES, Variant, called, fraction, whole
 from .wraps import wraps
 
 PROBE, LOCALS = "__probe", "__locals"
@@ -76,6 +76,8 @@ def likeness(node: ast.expr) -> str:
             return f"{called(node)}"
         case ast.Name():
             return node.id
+        case ast.BinOp() if len(fraction(node)) > 2:
+            return "/ *"
         case ast.BinOp():
             return _SIGNS.get(type(node.op), "")
         case ast.Attribute(attr="T"):

@@ -52,6 +52,7 @@ EVERY = {
     "operator": "every `{}`: another operator is needed",
     "order": "the order of the factors at every `{}`",
     "index": "the order of the two indices, everywhere",
+    "brackets": "the brackets in every fraction: what is divided by what",
     "call": "every `{}`: a call too many",
     "number": "the number {}, everywhere",
     "name": "`{}`, everywhere: another variable belongs there",

@@ -43,6 +43,12 @@ def _number_like(value: Any) -> Any:
 
 Made = tuple[Callable[[], list], Callable, list[Variant]]  # pieces, ordinary value, variants
 
+
+def _matrix_product(x: Any, y: Any) -> Any:
+    """x @ y; a number has no other product than *, where every * of a function is tried at once."""
+    return x @ y if np.ndim(x) and np.ndim(y) else x * y
+
+
 _OPERATORS: dict[type, Callable] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
@@ -55,6 +61,7 @@ _OPERATORS: dict[type, Callable] = {
     ast.BitAnd: operator.and_,
     ast.BitOr: operator.or_,
 }
+_INSTEAD = _OPERATORS | {ast.MatMult: _matrix_product}
 INSTEAD: dict[type, tuple[type, ...]] = {
     ast.Add: (ast.Sub, ast.Mult),
     ast.Sub: (ast.Add,),
@@ -114,9 +121,11 @@ def _binary(node: ast.BinOp, variables: list[str]) -> Made:
     if compute is None:
         return whole(node, variables)
     variants = [
-        Variant("sign" if {kind, new} == {ast.Add, ast.Sub} else "operator", _apply(_OPERATORS[new]), rank=0)
+        Variant("sign" if {kind, new} == {ast.Add, ast.Sub} else "operator", _apply(_INSTEAD[new]), rank=0)
         for new in INSTEAD.get(kind, ())
     ]
+    if kind is ast.Div and isinstance(node.left, ast.Constant) and node.left.value == 1:
+        variants.append(Variant("inverse", lambda p, _: np.linalg.inv(p[1]), rank=0))
     if kind in (ast.MatMult, ast.Sub, ast.Div, ast.Pow):
         variants.append(Variant("order", lambda p, _: compute(p[1], p[0]), rank=0))
     if kind is ast.Sub:
@@ -127,15 +136,16 @@ def _binary(node: ast.BinOp, variables: list[str]) -> Made:
         variants.append(Variant("operator", _apply(np.linalg.matrix_power), rank=0))
     variants.append(Variant("extra", lambda p, _: p[0]))
     variants.append(Variant("extra", lambda p, _: p[1]))
-    fraction = _fraction(node)
-    if len(fraction) > 2:  # x / 2 * a: the whole product was meant to stand below the line
-        below = len(fraction) - 1
+    parts = fraction(node)
+    if len(parts) > 2:  # x / 2 * a: the whole product was meant to stand below the line
+        variants = [v for v in variants if v.kind != "operator"]  # x / 2 / a is the same
+        below = len(parts) - 1
         variants.append(Variant("brackets", lambda p, _: p[2] / math.prod(p[3:]), rank=0))
-        return (lambda: [node.left, node.right, *fraction[: below + 1]]), _apply(compute), variants
+        return (lambda: [node.left, node.right, *parts[: below + 1]]), _apply(compute), variants
     return (lambda: [node.left, node.right]), _apply(compute), variants
 
 
-def _fraction(node: ast.expr) -> list[ast.expr]:
+def fraction(node: ast.expr) -> list[ast.expr]:
     """[x, a, b, c] of x / a * b * c, [] of anything else."""
     factors: list[ast.expr] = []
     while isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):

@@ -1,0 +1,60 @@
+"""Matrices whose singular values are known, for the exercises of notebook 04 about them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def orthogonal(rng, n=6):
+    return np.linalg.qr(rng.normal(size=(n, n)))[0]
+
+
+def matrix(rng, sigma, columns=6):
+    """6 rows, these singular values."""
+    U, V = orthogonal(rng), orthogonal(rng, columns)
+    n = len(sigma)
+    return U[:, :n] @ np.diag(sigma) @ V[:n]
+
+
+def nearly_singular(rng, size=1, lost=None, small=None, columns=6):
+    """Singular values of which `lost` are nothing but rounding; one may be small and still counts."""
+    sigma = rng.uniform(0.3, 2, min(columns, 6))
+    lost = rng.integers(0, 3) if lost is None else lost
+    if small or (small is None and rng.integers(2)):
+        sigma[-1] = 1e-4 * sigma[0]
+    sigma[:lost] = 2e-8 * sigma.max()
+    return size * matrix(rng, sigma, columns), 1e-6
+
+
+def limit_met(rng):
+    """Nothing is larger than 1 times the largest."""
+    return nearly_singular(rng)[0], 1.0
+
+
+def coarse(rng):
+    """The fourth, 0.5, is above 0.2 times the largest, but below 0.2 times the root of the sum of squares."""
+    return matrix(rng, [2, 1.5, 1, 0.5, 0.1, 0.02]), 0.2
+
+
+def fine(rng):
+    return matrix(rng, [2, 1.5, 1, 0.3, 1e-7, 1e-14]), 1e-10
+
+
+def nilpotent(rng):
+    return np.diag(rng.uniform(0.5, 2, 5), 1), 1e-6
+
+
+def whole(rng):
+    J = np.eye(6, 6, dtype=int) + np.eye(6, k=1, dtype=int) * rng.integers(1, 4)
+    J[4:] = J[:2]
+    return J, 1e-6
+
+
+def counted(args, value, right):
+    J, tol = args
+    sigma = np.linalg.svd(J)[1]
+    shown = ", ".join(f"{s / sigma[0]:.2g}" for s in sigma)
+    return (
+        f"divided by the largest, the singular values of one example are {shown}; "
+        f"{right:.0f} of them are above tol = {tol:g}, you return {value:g}"
+    )
