@@ -81,6 +81,12 @@ def solved(notebook):
 
 
 @kind(FULL)
+def a_name_in_wide_letters(notebook):
+    """As a keyboard for Chinese may write it: for Python it is the same name."""
+    return with_fk(notebook, "def \uff46\uff4b(*inputs):\n    return right(*inputs)")
+
+
+@kind(FULL)
 def cells_in_reverse_order(notebook):
     setup = notebook["cells"][position(notebook, "import numpy")]
     return {**notebook, "cells": [setup, *reversed(notebook["cells"])]}
@@ -258,6 +264,11 @@ KINDS["the_function_is_a_number"] = Kind(lambda nb: with_fk(nb, "fk = 42"), NO_F
 KINDS["the_function_is_gone"] = Kind(lambda nb: with_fk(nb, "x = 1"), NO_FK, "no such function")
 KINDS["takes_no_arguments"] = Kind(lambda nb: with_fk(nb, "def fk():\n    return 1"), NO_FK, "TypeError")
 
+KINDS["a_look_alike_name"] = Kind(  # its k is Cyrillic: another name for Python, and the same for the eye
+    lambda nb: with_fk(nb, "def f\u043a(*inputs):\n    return right(*inputs)"), NO_FK, "no such function"
+)
+fk_kind("a_number_without_end", NO_FK, "return 9 ** 9 ** 9 ** 9", "no answer")
+
 # ---- things that pretend to be right
 
 fk_kind(
@@ -286,6 +297,20 @@ class Liar(np.ndarray):
     def __array_ufunc__(self, *args, **kwargs):
         return np.zeros(2)
 """,
+)
+KINDS["an_object_that_lies_about_its_class"] = Kind(
+    lambda nb: with_fk(
+        nb,
+        """class Function:
+    __name__ = "fk"
+    __code__ = property(lambda self: right.__code__)
+    __class__ = property(lambda self: type(right))
+    __call__ = lambda self, *inputs: np.zeros(2)
+
+
+fk = Function()""",
+    ),
+    NO_FK,
 )
 fk_kind(
     "patched_numpy",
