@@ -26,7 +26,7 @@ from coursekit.classroom.repair.lines import line_edits, name_edits
 
 REASONS = Path(__file__).resolve().parent / "survivors"
 # Kinds that are not asked for: they change nothing where nothing is wrong.
-HARMLESS = {"copy", "whole_numbers", "in_place", "negative_root", "somewhere"}
+HARMLESS = {"copy", "whole_numbers", "in_place", "negative_root", "somewhere", "products"}
 DEEPEST = 1  # rank of the edits: what stands there is replaced, or gets a sign, is transposed or inverted
 
 

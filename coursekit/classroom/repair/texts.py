@@ -6,6 +6,7 @@ from __future__ import annotations
 TEXTS = {
     "sign": "a sign",
     "operator": "an operator between two things",
+    "products": "an operator between two things",
     "order": "the order of two factors or terms",
     "brackets": "the brackets: what is divided by what",
     "extra": "a factor or a term too many",
@@ -50,6 +51,7 @@ EVERY = {
     "arguments": "the order of the arguments in every `{}`",
     "function": "every `{}`: another function is needed",
     "operator": "every `{}`: another operator is needed",
+    "products": "every `{}`: another operator is needed",
     "order": "the order of the factors at every `{}`",
     "index": "the order of the two indices, everywhere",
     "brackets": "the brackets in every fraction: what is divided by what",

@@ -45,7 +45,7 @@ Made = tuple[Callable[[], list], Callable, list[Variant]]  # pieces, ordinary va
 
 
 def _matrix_product(x: Any, y: Any) -> Any:
-    """x @ y; a number has no other product than *, where every * of a function is tried at once."""
+    """x @ y; for a number still *: where every * is tried at once, some are between numbers."""
     return x @ y if np.ndim(x) and np.ndim(y) else x * y
 
 
@@ -61,7 +61,6 @@ _OPERATORS: dict[type, Callable] = {
     ast.BitAnd: operator.and_,
     ast.BitOr: operator.or_,
 }
-_INSTEAD = _OPERATORS | {ast.MatMult: _matrix_product}
 INSTEAD: dict[type, tuple[type, ...]] = {
     ast.Add: (ast.Sub, ast.Mult),
     ast.Sub: (ast.Add,),
@@ -121,9 +120,11 @@ def _binary(node: ast.BinOp, variables: list[str]) -> Made:
     if compute is None:
         return whole(node, variables)
     variants = [
-        Variant("sign" if {kind, new} == {ast.Add, ast.Sub} else "operator", _apply(_INSTEAD[new]), rank=0)
+        Variant("sign" if {kind, new} == {ast.Add, ast.Sub} else "operator", _apply(_OPERATORS[new]), rank=0)
         for new in INSTEAD.get(kind, ())
     ]
+    if kind is ast.Mult:
+        variants.append(Variant("products", _apply(_matrix_product), rank=0))
     if kind is ast.Div and isinstance(node.left, ast.Constant) and node.left.value == 1:
         variants.append(Variant("inverse", lambda p, _: np.linalg.inv(p[1]), rank=0))
     if kind in (ast.MatMult, ast.Sub, ast.Div, ast.Pow):
