@@ -1,6 +1,7 @@
 """The picture without a browser shows what the scene says: what, where and in which color, always alike."""
 
 import io
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -139,3 +140,17 @@ def test_the_view_can_be_chosen():
     scene.robot(robots.kuka_kr6())
     views = {name: png(scene, 240, 160, name) for name in scene.views}
     assert len(set(views.values())) == 4
+
+
+def test_it_needs_little_memory():
+    """A kernel in a browser never gives back what it once took."""
+    scene = Scene()
+    scene.robot(CATALOGUE["kuka_kr6"])
+    png(scene, 640, 470)  # what is made once
+    tracemalloc.start()
+    try:
+        png(scene, 640, 470)
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert most < 80e6  # of which 29e6 are the canvas
