@@ -21,6 +21,7 @@ from .scene import Scene
 PAPER = np.array([0.972, 0.976, 0.982])
 KEY = np.array([0.8, -0.95, 1.9]) / np.linalg.norm([0.8, -0.95, 1.9])  # where the light comes from
 INK = {"x": 0xC93D31, "y": 0x2F8A4B, "z": 0x2F63C9, "axis": 0x6A3FB0, "tick": 0x8A94A0}
+BAND = 128  # rows that are painted at once
 FINER = 2  # pixels drawn per pixel kept, along each side
 SHADES = 96  # colors in the file
 LINE = 14  # pixels from one label to the next below it
@@ -47,20 +48,29 @@ def png(scene: Scene, width: int = 720, height: int = 440, view: str = "home") -
         (part.mesh(coarse=True).moved(worlds[path]), part) for path in shown for part in scene.parts[path]
     ]
     solid = [thing for thing in things if thing[1].opacity == 1]
-    canvas = _ground(scene, eye, [mesh for mesh, part in solid if part.casts])
-    nothing_near = np.zeros(len(canvas))
-    for ghost in (ghost for ghost in scene.ghosts if ghost["shown"]):
-        _paint(canvas, nothing_near, eye, list(_copies(scene, ghost)), ghost["opacity"])
-    near = _paint(canvas, nothing_near, eye, solid)
-    for thing in things:
-        if thing[1].opacity < 1:
-            _paint(canvas, near, eye, [thing], thing[1].opacity)
+    clear = [([thing], thing[1].opacity) for thing in things if thing[1].opacity < 1]
+    ghosts = [(list(_copies(scene, ghost)), ghost["opacity"]) for ghost in scene.ghosts if ghost["shown"]]
     # what shines through, faintly, even where hidden
-    for xray in sorted({part.xray for _, part in solid} - {0}):
-        _paint(canvas, nothing_near, eye, [thing for thing in solid if thing[1].xray == xray], xray)
-    # in place: a kernel in the browser keeps for ever the most memory that it once needed
-    np.multiply(np.clip(canvas, 0, 1, out=canvas), 255, out=canvas).round(out=canvas)
-    pixels = canvas.astype(np.uint8).reshape(eye.height, eye.width, 3)
+    xrays = [
+        ([thing for thing in solid if thing[1].xray == xray], xray)
+        for xray in sorted({part.xray for _, part in solid} - {0})
+    ]
+    paper, shadow = _ground(scene, eye, [mesh for mesh, part in solid if part.casts])
+    pixels = np.empty((eye.height, eye.width, 3), np.uint8)
+    # in bands: a kernel in the browser keeps for ever the most memory that it once needed
+    for start in range(0, eye.height, BAND):
+        eye.rows = start, min(start + BAND, eye.height)
+        rows = slice(*eye.rows)
+        canvas = paper[rows].reshape(-1, 3) / 255 * (1 - 0.2 * shadow[rows].reshape(-1, 1) / 255)
+        nothing_near = np.zeros(len(canvas))
+        for copies, opacity in ghosts:
+            _paint(canvas, nothing_near, eye, copies, opacity)
+        near = _paint(canvas, nothing_near, eye, solid)
+        for one, opacity in clear:
+            _paint(canvas, near, eye, one, opacity)
+        for seen_through, opacity in xrays:
+            _paint(canvas, nothing_near, eye, seen_through, opacity)
+        pixels[rows] = (np.clip(canvas, 0, 1) * 255).round().reshape(-1, eye.width, 3)
     image = Image.fromarray(pixels).resize((width, height), Image.Resampling.BOX)
     _letter(image, scene, eye)
     file = io.BytesIO()
@@ -79,6 +89,7 @@ class _Eye:
         right /= np.linalg.norm(right)
         self.axes = np.array([right, np.cross(back, right), -back])
         self.width, self.height = width, height
+        self.rows = 0, height  # of pixels that are painted, from and to
         self.focus = height / 2 / np.tan(np.radians(FOV / 2))
 
     def project(self, points):
@@ -97,7 +108,7 @@ def _rasterise(eye, pixel, nearness, faces, both_sides=False):
     faces, area, ax, ay, bx, by, cx, cy = (v[faced] for v in (faces, area, ax, ay, bx, by, cx, cy))
     # Row by row and not over the bounding box, huge for a thin rod that runs askew. Pixel centres lie at 0.5;
     # a span begins a pixel early and ends one late, and the weights decide.
-    top, bottom = (f(f(ay, by), cy).clip(0, eye.height) for f in (np.minimum, np.maximum))
+    top, bottom = (f(f(ay, by), cy).clip(*eye.rows) for f in (np.minimum, np.maximum))
     face, y = _runs(np.ceil(top - 0.5).astype(int), np.ceil(bottom - 0.5).astype(int))
     left, right = np.full(len(face), np.inf), np.full(len(face), -np.inf)
     for px, py, qx, qy in ((ax, ay, bx, by), (bx, by, cx, cy), (cx, cy, ax, ay)):
@@ -118,7 +129,7 @@ def _rasterise(eye, pixel, nearness, faces, both_sides=False):
 
     u, v = weight(bx, by, cx, cy), weight(cx, cy, ax, ay)
     inside = (u >= 0) & (v >= 0) & (u + v <= 1)
-    u, v, at = u[inside], v[inside], (y * eye.width + x)[inside]
+    u, v, at = u[inside], v[inside], ((y - eye.rows[0]) * eye.width + x)[inside]
     corners, weights = faces[face[inside]], np.column_stack([u, v, 1 - u - v])
     return at, corners, weights, np.einsum("ij,ij->i", weights, nearness[corners])
 
@@ -179,7 +190,7 @@ def _copies(scene, ghost):
 
 
 def _ground(scene, eye, casting):
-    """Paper with the grid and the shadow: flat (pixels, 3)."""
+    """Paper with the grid (rows, columns, 3), and the shadow on it (rows, columns), both 0 to 255."""
     image = Image.new("RGB", (eye.width, eye.height), tuple(int(255 * v) for v in PAPER))
     pen = ImageDraw.Draw(image)
     ink = channels(PALETTE["grid"])
@@ -190,19 +201,13 @@ def _ground(scene, eye, casting):
         if shown:
             shade = (1 - strength) * PAPER + strength * ink
             pen.line([*a, *b], fill=tuple(int(255 * v) for v in shade), width=FINER)
-    canvas = np.array(image, float).reshape(-1, 3)
-    canvas /= 255
+    mask = np.zeros((eye.height, eye.width), np.uint8)
     if casting and eye.position[2] > scene.floor:
         points, faces = _together(casting)
         points = points - KEY * ((points[:, 2:] - scene.floor) / KEY[2])
-        mask = np.zeros(eye.width * eye.height, np.uint8)
-        at = _rasterise(eye, *eye.project(points), faces)[0]
-        mask[at] = 255
-        soft = Image.fromarray(mask.reshape(eye.height, eye.width)).filter(
-            ImageFilter.GaussianBlur(4 * FINER)
-        )
-        canvas *= 1 - 0.2 * np.asarray(soft, float).reshape(-1, 1) / 255
-    return canvas
+        mask.ravel()[_rasterise(eye, *eye.project(points), faces)[0]] = 255
+    soft = Image.fromarray(mask).filter(ImageFilter.GaussianBlur(4 * FINER))
+    return np.asarray(image), np.asarray(soft)
 
 
 def _letter(image, scene, eye):
