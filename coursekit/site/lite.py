@@ -23,6 +23,9 @@ _FIRST = re.compile(
     r"^(static/pyodide|lab|files|api)/|^build/jlab_core\.|^extensions/.*remoteEntry|^[^/]*\.json$"
 )
 STATIC = Path(__file__).with_name("static")
+# What JupyterLab's page has besides: Python, and the system's colours before there is a theme.
+_HEAD = """<script src="../early.js"></script>
+<style>@media (prefers-color-scheme: dark) { html body { background-color: #111; color: #fff; } }</style>"""
 
 
 # Where "Run it here" leads, with the name of a notebook.
@@ -98,6 +101,7 @@ def _settings(lite: Path, title: str) -> None:
     config = {
         "appName": title,
         "exposeAppInBrowser": True,
+        "faviconUrl": "./icon-120x120.png",
         "enableServiceWorkerCache": "false",  # ours keeps what is to be kept
         "disabledExtensions": [
             "@jupyterlab/apputils-extension:announcements",
@@ -129,11 +133,14 @@ def _build(work: Path, notebooks: Path) -> None:
 
 def _finish(out: Path) -> None:
     """Add the page that loads everything and the list of what that is; take away what nobody reads."""
-    for path in out.rglob("*.map"):
+    for path in [*out.rglob("*.map"), out / "lab" / "favicon.ico"]:
         path.unlink()
     (out / "service-worker.js").rename(out / "jupyterlite-worker.js")
     for path in (STATIC / "run").iterdir():
         shutil.copy(path, out / path.name)
+    lab = out / "lab" / "index.html"
+    html = lab.read_text(encoding="utf-8")
+    lab.write_text(html.replace("<head>", f"<head>\n{_HEAD}", 1), encoding="utf-8")
     files = {}
     for path in sorted(path for path in out.rglob("*") if path.is_file()):
         data = path.read_bytes()

@@ -58,11 +58,14 @@ AT_ONCE = (
 NOT_IN_A_BROWSER = re.compile(
     r"coursekit/(__main__|commands|view/reopened|classroom/lab)\.py|coursekit/view/static/(lab|server)/|__pycache__"
 )
-# What no kernel reads.
+# What no kernel reads. (Bold letters that slant are drawn as bold ones.)
 _SPARE = re.compile(
-    r"(?x) (^|/)tests?/ | /benchmarks/ | ^(?!jedi/).*\.pyi$ | \.a$ | ^\.\./"
+    r"(?x) (^|/)tests?/ | /benchmarks/ | ^(?!jedi/).*\.pyi$ | \.a$ | ^\.\./ | \.dist-info/RECORD$"
     r"| mpl-data/sample_data/ | mpl-data/fonts/(afm|pdfcorefonts)/ | DejaVuSerif"
-    r"| ^numpy/(f2py|_core/include)/ | ^jedi/third_party/django-stubs/ | ^IPython/sphinxext/"
+    r"| DejaVuSans(Mono)?-(Mono-)?BoldOblique | DejaVuSansMono-(Bold|Oblique) | STIXGeneralBol"
+    r"| ^numpy/(f2py|_core/include)/ | ^IPython/sphinxext/ | ^PIL/_webp\. | dateutil-zoneinfo\.tar\.gz$"
+    r"| ^jedi/third_party/(django-stubs|typeshed/(third_party|stdlib/2))/"
+    r"| ^pygments/lexers/(?!__init__|_mapping|python|special)"
     r"| ^meshcat/(?!__init__\.py|viewer/dist/main\.min\.js|viewer/LICENSE) | ^anywidget/nbextension/"
     r"| __pycache__ | (^|/)labextension/"
 )

@@ -63,7 +63,7 @@ def test_pyodides_licence_and_source_are_named(run):
 def test_it_is_light(run):
     listed = json.loads((run / "files.json").read_text())
     first = sum(listed["files"][name]["size"] for name in listed["first"])
-    assert 30e6 < first < 43e6  # and about 5 MB of JupyterLab's parts after that
+    assert 30e6 < first < 39e6  # and about 5 MB of JupyterLab's parts after that
     assert "scipy" not in json.dumps(listed)
 
 

@@ -78,6 +78,10 @@ class Student(Visit):
     def source(self, cell):
         return self.page.evaluate(SOURCE, cell)
 
+    def kernels(self):
+        """The addresses of the workers in which Python runs."""
+        return [worker.url.rsplit("/", 1)[1] for worker in self.page.workers if "blob:" not in worker.url]
+
     def save(self, folder, number="4711"):
         self.page.once("dialog", lambda dialog: dialog.accept(number))
         with self.page.expect_download(timeout=60_000) as download:
@@ -96,6 +100,7 @@ def work(browser, run, served, tmp_path_factory):
         student.run("setup")
         told["wrong"] = (student.run("ex-dh-transform", WRONG), student.run("check-dh-transform"))[1]
         told["right"] = (student.run("ex-dh-transform", RIGHT), student.run("check-dh-transform"))[1]
+        told["kernels"] = student.kernels()
         told["second"] = (student.run("ex-fk-dh", CHAIN), student.run("check-fk-dh"))[1]
         student.page.evaluate("() => window.jupyterapp.commands.execute('docmanager:save')")
         student.page.wait_for_function(
@@ -123,6 +128,34 @@ def test_a_check_fails_and_passes_there(work):
     assert "modified" in work["wrong"]
     assert work["right"].startswith("✓ dh_transform: right on")
     assert work["second"].startswith("✓ fk_dh: right on")  # its tick goes to a file that is there by now
+
+
+def test_python_starts_while_jupyterlab_loads_and_only_once(work):
+    assert work["kernels"] == ["early.js"]
+
+
+def test_python_starts_again_when_it_is_told_to(browser, run, served):
+    with Student(browser, served.url) as student:
+        student.go()
+        student.page.evaluate(
+            "() => window.jupyterapp.shell.currentWidget.context.sessionContext.session.kernel.restart()"
+        )
+        student.wait()
+        assert student.run("setup") == ""
+        assert len(student.kernels()) == 1 and student.kernels() != ["early.js"]
+
+
+@pytest.mark.parametrize("width", [412, 1366])
+def test_what_does_not_work_can_be_read(browser, run, served, width):
+    seen = """() => [...document.querySelectorAll("#ck-bar details p")].every((line) => {
+      const { left, top, right } = line.getBoundingClientRect();
+      return left > 0 && right < innerWidth && line.contains(document.elementFromPoint(left + 5, top + 9));
+    })"""
+    with Student(browser, served.url, viewport={"width": width, "height": 768}) as student:
+        student.open("run/lab/index.html")
+        student.page.locator("#jp-top-panel .lm-MenuBar").wait_for(timeout=120_000)
+        student.page.click("#ck-bar summary")
+        assert student.page.evaluate(seen)
 
 
 def test_what_was_written_is_there_after_a_reload(work):

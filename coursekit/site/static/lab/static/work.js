@@ -99,7 +99,7 @@
 
   // --- the bar at the top
   const STYLE = `#main { top: var(--ck-bar, 34px) !important; }
-#ck-bar { position: absolute; inset: 0 0 auto 0; z-index: 2; display: flex; flex-flow: row wrap; align-items: center; gap: 2px 10px; padding: 4px 10px;
+#ck-bar { position: absolute; inset: 0 0 auto 0; z-index: 9998; display: flex; flex-flow: row wrap; align-items: center; gap: 2px 10px; padding: 4px 10px;
   font: 13px/1.5 var(--jp-ui-font-family, system-ui, sans-serif); color: var(--jp-ui-font-color1); background: var(--jp-layout-color2);
   border-bottom: 1px solid var(--jp-border-color1); box-sizing: border-box; }
 #ck-bar button, #ck-bar summary { font: inherit; color: var(--jp-ui-font-color1); background: var(--jp-layout-color1); border: 1px solid var(--jp-border-color1);
@@ -107,6 +107,7 @@
 #ck-bar details { position: relative; }
 #ck-bar details div { position: absolute; right: 0; top: 28px; width: min(30rem, 90vw); padding: 6px 14px; background: var(--jp-layout-color1);
   border: 1px solid var(--jp-border-color1); border-radius: 4px; box-shadow: 0 4px 18px #0004; max-height: 70vh; overflow: auto; }
+@media (max-width: 700px) { #ck-bar details { position: static; } #ck-bar details div { inset: auto 10px; width: auto; } }
 #ck-bar .ck-state { margin-left: auto; }
 #ck-bar :focus-visible { outline: 2px solid var(--jp-brand-color1); }`;
 

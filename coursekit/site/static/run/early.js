@@ -1,0 +1,45 @@
+// Python starts while JupyterLab is still loading. In the page this makes a worker and hands it over when the kernel asks for
+// its own; in that worker it loads Pyodide as the kernel would, so that the kernel finds it loaded.
+(() => {
+  // What the kernel and nearly every first cell import; between two of them the kernel is heard.
+  const FIRST = ["piplite.piplite", "pyodide_kernel", "numpy", "anywidget", "coursekit.view", "coursekit.kinematics.symbolic"];
+  const IDLE = 120_000; // ms until a worker that nobody asked for goes
+
+  async function inWorker() {
+    let load, started;
+    // The kernel runs Pyodide's script again, and then finds what runs already. (The script sets the name to other things, too.)
+    Object.defineProperty(self, "loadPyodide", {
+      get: () => (options) => (started ||= load(options)),
+      set(real) { if (typeof real === "function") load = real; },
+    });
+    addEventListener("message", ({ data }) => importScripts(data.coursekit), { once: true });
+    const { litePluginSettings } = (await (await fetch("jupyter-lite.json")).json())["jupyter-config-data"];
+    const [{ pyodideUrl, loadPyodideOptions }] = Object.values(litePluginSettings);
+    const url = new URL(pyodideUrl, location);
+    importScripts(url);
+    const python = await self.loadPyodide({ indexURL: new URL(".", url).href, ...loadPyodideOptions });
+    for (const name of FIRST) {
+      python.runPython(`import ${name}`);
+      await new Promise((heard) => setTimeout(heard));
+    }
+  }
+
+  function inPage(script) {
+    const known = Object.keys(localStorage).some((name) => name.startsWith("coursekit.open."));
+    if (crossOriginIsolated || !(known || new URLSearchParams(location.search).has("path"))) return;
+    const Plain = self.Worker, early = new Plain(script);
+    const late = setTimeout(() => { early.terminate(); self.Worker = Plain; }, IDLE);
+    self.Worker = new Proxy(Plain, {
+      construct(_, [url, ...options]) {
+        if (!/pyodide-kernel/.test(url)) return new Plain(url, ...options);
+        clearTimeout(late);
+        self.Worker = Plain;
+        early.postMessage({ coursekit: String(url) });
+        return early;
+      },
+    });
+  }
+
+  if (self.document) inPage(document.currentScript.src);
+  else inWorker();
+})();
