@@ -18,7 +18,7 @@ import numpy as np
 import traitlets
 from numpy.typing import ArrayLike
 
-from coursekit.view import controls, text
+from coursekit.view import controls, curves
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -35,7 +35,6 @@ STYLE: Any = {
     "svg.fonttype": "none",  # text stays text
     "svg.hashsalt": "coursekit",
 }
-_ROWS = 12  # of the table, at most
 
 
 class Plot(anywidget.AnyWidget):
@@ -146,9 +145,8 @@ class Plot(anywidget.AnyWidget):
             self._figure.savefig(written, format="svg", metadata=nothing)
         svg = re.sub(r"^.*?(?=<svg)|<style.*?</style>", "", written.getvalue(), flags=re.DOTALL)
         self.svg = re.sub(r" font-family: [^;\"]*;?", "", svg).replace(_INK, "currentColor")
-        curves = _curves(self._figure)
-        self.numbers = _table(curves)
-        self.alt = " ".join(_words(self._figure, curves)) or self.caption
+        self.numbers = curves.table(self._figure)
+        self.alt = curves.words(self._figure) or self.caption
 
     def _axes(self):
         return self._figure.axes[0]
@@ -179,44 +177,3 @@ def decades(ax: Axes, powers: Sequence[int]) -> None:
     raised = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
     ax.set_yticks([10.0**k for k in powers], [f"10{str(k).translate(raised)}" if k else "1" for k in powers])
     ax.minorticks_off()  # many ticks are slow to draw
-
-
-def _curves(figure):
-    """(axes, name, x, y) of every curve that has a label."""
-    found = []
-    for ax in figure.axes:
-        for line in ax.lines:
-            name = str(line.get_label())
-            x, y = np.array(line.get_data(), float)
-            if not name.startswith("_") and len(x) > 1:
-                if ax.get_yscale() == "linear":  # what is 0 but for rounding
-                    y = np.where(np.abs(y) < 1e-9 * np.abs(ax.get_ylim()).max(), 0, y)
-                found.append((ax, name, x, y))
-    return found
-
-
-def _table(curves):
-    """The curves at no more than twelve places, evenly chosen of all that they have."""
-    if not curves:
-        return []
-    places = np.unique(np.concatenate([x for _, _, x, _ in curves]))
-    places = places[np.unique(np.linspace(0, len(places) - 1, _ROWS).round().astype(int))]
-    at = [dict(zip(x, y, strict=True)) for _, _, x, y in curves]
-    rows = [[f"{x:.4g}", *(_number(known.get(x, np.nan)) for known in at)] for x in places]
-    up, across = curves[0][0].get_ylabel(), curves[0][0].get_xlabel()
-    return [[up], [across, *(name for _, name, *_ in curves)], *rows]
-
-
-def _words(figure, curves):
-    """What the axes are, and of every curve its ends and its extremes."""
-    for ax in figure.axes:
-        yield from [f"{ax.get_title()}."] if ax.get_title() else []
-        up, across = (f"{low:.3g} to {high:.3g}" for low, high in (ax.get_ylim(), ax.get_xlim()))
-        yield f"{ax.get_ylabel() or 'y'}, {up}, over {ax.get_xlabel() or 'x'}, {across}."
-    for _, name, _, y in curves:
-        first, last, least, most = (_number(v) for v in (y[0], y[-1], np.nanmin(y), np.nanmax(y)))
-        yield f"{name}: from {first} to {last}, lowest {least}, highest {most}."
-
-
-def _number(value):
-    return text.NOTHING if np.isnan(value) else f"{value:.3g}"

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coursekit.view import curves
 from coursekit.view.paint import PALETTE
 
 if TYPE_CHECKING:
@@ -24,7 +25,10 @@ def palette(name: str) -> str:
 
 
 def show() -> None:
-    """Show the figure that was drawn last, in few colors: a third of the bytes that `plt.show()` stores."""
+    """Show the figure that was drawn last, in few colors: a third of the bytes that `plt.show()` stores.
+
+    Its numbers stand beside the picture, as the alternative text that pages made of the notebook have.
+    """
     import matplotlib.pyplot as plt
     from IPython.display import display
     from PIL import Image
@@ -35,7 +39,8 @@ def show() -> None:
     image.quantize(SHADES, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(small, "PNG")
     said = f"<Figure size {image.width}x{image.height} with {len(figure.axes)} Axes>"
     plt.close(figure)
-    display({"image/png": base64.b64encode(small.getvalue()).decode(), "text/plain": said}, raw=True)
+    data = {"image/png": base64.b64encode(small.getvalue()).decode(), "text/plain": said}
+    display(data, metadata={"image/png": {"alt": curves.words(figure)}}, raw=True)
 
 
 def axes_3d(count: int, size: tuple[float, float]) -> np.ndarray:

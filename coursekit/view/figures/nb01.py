@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import dh
 from coursekit.kinematics.robot import Robot
-from coursekit.view.figures import INK, axes_3d, limits_3d, palette
+from coursekit.view.figures import INK, axes_3d, limits_3d, palette, show
 from coursekit.view.figures.side import GREY, INTO, mark_axis, mark_frame, side_view
 
 CROWD = 0.1  # m: frames nearer to each other than this are fanned out
@@ -87,7 +87,7 @@ def common_normals() -> None:
         mark_frame(ax, "3", corner, [("x₃", x), ("z₃", z)], beside=(10, 8))
         mark_frame(ax, "4", wrist, [("x₄", x)], beside=(-8, -32) if x == up else (-36, -4))
         ax.set(title=title, xlim=(-90, 900), ylim=(-160, 600), aspect="equal", xticks=[], yticks=[])
-    plt.show()
+    show()
 
 
 def exam_drawing() -> None:
@@ -106,7 +106,7 @@ def exam_drawing() -> None:
     mark_frame(ax, "0", (0, 0), [("x₀", (1, 0)), ("z₀", (0, 1))], length=170)
     mark_frame(ax, "6", (1395, 1550), [("z₆", (1, 0))], length=170)
     ax.set(xlabel="x [mm]", ylabel="z [mm]")
-    plt.show()
+    show()
 
 
 def placements(robot: Robot, fan: ArrayLike = (0.0, 0.0, 0.32)) -> None:
@@ -169,9 +169,8 @@ def errors_along_path(errors: Mapping[str, np.ndarray], ways: int) -> None:
 
 
 def _show():
-    import matplotlib.pyplot as plt
 
-    plt.show()
+    show()
 
 
 def _triad(ax, T, length):

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
-from coursekit.view.figures import INK, palette
+from coursekit.view.figures import INK, palette, show
 from coursekit.view.figures.side import INTO, OUT_OF, draw_arm, mark_axis, mark_frame, side_view
 
 
@@ -17,7 +17,7 @@ def drawing(robot: Robot) -> None:
 
     _, ax = plt.subplots(figsize=(8.2, 4.4), layout="constrained")
     draw_arm(ax, robot)
-    plt.show()
+    show()
 
 
 def steps(directions: Sequence[str], P_mm: ArrayLike) -> None:
@@ -44,7 +44,7 @@ def steps(directions: Sequence[str], P_mm: ArrayLike) -> None:
     mark_frame(ax, "s", corners[0], [("x", (1, 0)), ("z", (0, 1))])
     ax.set(xlabel="x [mm]", ylabel="z [mm]", xlim=(-170, 760), ylim=(-90, 1170), aspect="equal")
     ax.grid(alpha=0.2)
-    plt.show()
+    show()
 
 
 def telescope_arm() -> Robot:
@@ -78,7 +78,7 @@ def telescope() -> None:
     mark_frame(ax, "s", (0, 0), [("x", (1, 0)), ("z", (0, 1))])
     mark_frame(ax, "b", corners[-1], [("x", (1, 0)), ("z", (0, -1))])
     ax.set(xlabel="x [mm]", ylabel="z [mm]")
-    plt.show()
+    show()
 
 
 def axes_in_space(
@@ -108,7 +108,7 @@ def axes_in_space(
     ax.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]", xlim=(-0.1, 1.3), ylim=(-0.3, 0.3), zlim=(0, 0.6))
     ax.set_box_aspect((1.4, 0.6, 0.6), zoom=1.15)
     ax.view_init(24, -62)
-    plt.show()
+    show()
 
 
 def _directions(ax, letters, points):

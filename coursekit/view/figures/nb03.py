@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from coursekit.kinematics import lie, subproblems
-from coursekit.view.figures import INK, palette
+from coursekit.view.figures import INK, palette, show
 
 STYLES = (("accent", "o-"), ("trace", "s--"), ("body", "^-."), ("axis", "D:"))
 
@@ -24,7 +24,7 @@ def triangle() -> None:
         ax.set_title(title, fontsize=10)
         ax.set(aspect="equal", xlim=(-0.75, 4.6), ylim=(-1.25, 2.75), xticks=[], yticks=[], xlabel="r")
     axes[0].set_ylabel("z")
-    plt.show()
+    show()
 
 
 def _one_triangle(ax, side):
@@ -117,7 +117,7 @@ def meetings() -> None:
     both = plt.figure(figsize=(8.4, 3.8), layout="constrained")
     _triangle_across(both.add_subplot(1, 2, 1))
     _two_circles(both.add_subplot(1, 2, 2, projection="3d"))
-    plt.show()
+    show()
 
 
 def _triangle_across(ax):
@@ -270,6 +270,5 @@ def _axes(size):
 
 
 def _show():
-    import matplotlib.pyplot as plt
 
-    plt.show()
+    show()

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import singularity
 from coursekit.kinematics.robot import Robot
-from coursekit.view.figures import INK, axes_3d, limits_3d, palette
+from coursekit.view.figures import INK, axes_3d, limits_3d, palette, show
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -105,7 +105,7 @@ def singular_map(robot: Robot, theta: ArrayLike, i: int, j: int, marks: Mapping[
     for (name, place), marker in zip(marks.items(), "XosD", strict=False):
         ax.plot(*np.degrees(place), marker, color="#F07A2B", mec="w", ms=9)
         ax.annotate(name, tuple(np.degrees(place)), (9, 6), textcoords="offset points", color="w", fontsize=9)
-    plt.show()
+    show()
 
 
 def on_axis_1() -> None:
@@ -146,12 +146,11 @@ def on_axis_1() -> None:
     ax.text(a1 / 2, d1 - 34, "$a_1$", color=INK, ha="center")
     ax.text((a1 + elbow[0]) / 2 + 28, (d1 + elbow[1]) / 2 - 10, "$a_2$", color=INK)
     ax.set(xlabel="r", ylabel="z", aspect="equal", xlim=(-190, 560), ylim=(-20, 1000), xticks=[], yticks=[])
-    plt.show()
+    show()
 
 
 def lost_lines(robot: Robot, poses: Mapping[str, ArrayLike]) -> None:
     """The arm, its six axes (dashed) and the screw of the lost wrench. poses: title -> theta (6,)."""
-    import matplotlib.pyplot as plt
 
     axes = axes_3d(len(poses), (9.6, 4.2))
     for ax, (title, theta) in zip(axes, poses.items(), strict=True):
@@ -170,7 +169,7 @@ def lost_lines(robot: Robot, poses: Mapping[str, ArrayLike]) -> None:
         limits_3d(ax, [(-0.5, 0.8), (-0.5, 0.6), (0.0, 1.1)], ticks=(-0.5, 0, 0.5, 1), unit="m")
         ax.set_title(f"{title}, pitch {abs(wrench.pitch):.3f} m", fontsize=10)
         ax.view_init(18, -38)
-    plt.show()
+    show()
 
 
 def two_smallest(angles: ArrayLike, values: np.ndarray) -> None:
@@ -183,7 +182,7 @@ def two_smallest(angles: ArrayLike, values: np.ndarray) -> None:
     ax.set(xlabel="θ4 [deg]", ylabel="singular value of J", xticks=range(-180, 181, 60))
     ax.grid(alpha=0.3)
     ax.legend(frameon=False)
-    plt.show()
+    show()
 
 
 def rates_near(
@@ -203,4 +202,4 @@ def rates_near(
     ax.set(xlabel=what, ylabel="joint rate [rad/s]")
     ax.grid(alpha=0.3)
     ax.legend(frameon=False)
-    plt.show()
+    show()
