@@ -34,10 +34,11 @@ def show() -> None:
     from PIL import Image
 
     figure, drawn, small = plt.gcf(), io.BytesIO(), io.BytesIO()
-    figure.savefig(drawn, format="png", dpi=100)
+    figure.savefig(drawn, format="png", dpi=100, bbox_inches="tight")
     image = Image.open(drawn).convert("RGB")
     image.quantize(SHADES, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(small, "PNG")
-    said = f"<Figure size {image.width}x{image.height} with {len(figure.axes)} Axes>"
+    wide, high = (100 * figure.get_size_inches()).round().astype(int)
+    said = f"<Figure size {wide}x{high} with {len(figure.axes)} Axes>"
     plt.close(figure)
     data = {"image/png": base64.b64encode(small.getvalue()).decode(), "text/plain": said}
     display(data, metadata={"image/png": {"alt": curves.words(figure)}}, raw=True)
