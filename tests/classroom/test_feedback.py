@@ -123,7 +123,9 @@ def test_a_place_that_tells_nothing_is_not_told():
     three = [("reversed", ""), ("halves", ""), ("flipped", "")]
     assert texts.sentence(three, [1]) == ""
     assert texts.sentence(three, [4]) == "look at line 4: something in this line"
-    assert texts.sentence(three[:1], [1]).startswith("look at several lines at once: an order")
+    assert texts.sentence(three[:1], [0]).startswith("look at several lines at once: an order")
+    assert texts.sentence(three[:1], [1]).startswith("look at the arguments: an order")
+    assert texts.sentence(three[:1], [1, 2]).startswith("look at line 2: an order")
     two = texts.sentence([("transposed", ""), ("inverse", "")], [4])
     assert two.endswith("something that is transposed or should be; or an inverse that is missing")
 

@@ -75,12 +75,14 @@ def sentence(kinds: list[tuple[str, str]], lines: list[int], body: int = 2) -> s
     where, what = _lines(lines, body), _what(kinds)
     if not where and what == TEXTS["somewhere"]:
         return ""
-    return f"look at {where or 'several lines at once'}: {what}"
+    elsewhere = "the arguments" if lines[-1] else "several lines at once"
+    return f"look at {where or elsewhere}: {what}"
 
 
 def _lines(lines: list[int], body: int) -> str:
     """Line 0 is several places at once; the line of the `def` the arguments, unless the body is in it."""
-    if lines[-1] < min(body, 2):
+    lines = [line for line in lines if line >= min(body, 2)]
+    if not lines:
         return ""
     return f"line {lines[0]}" if len(lines) == 1 else f"lines {lines[0]} and {lines[1]}"
 
