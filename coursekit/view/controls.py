@@ -208,6 +208,7 @@ class Sliders:
     """
 
     folded = legend = ""
+    in_picture = False  # they stand in no column: handles in the picture alone move them
 
     def __init__(self, name: str, sliders: Iterable[Slider]) -> None:
         self.name = name

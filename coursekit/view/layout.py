@@ -18,6 +18,8 @@ def column(controls: Sequence[Control | Sliders], reset: Action) -> ipywidgets.W
     switches: list[ipywidgets.Widget] = []
     for control in controls:
         if isinstance(control, Sliders):
+            if control.in_picture:
+                continue
             rows += _folded(control) if control.folded else control.sliders
             rows += [ipywidgets.HTML(control.legend)] if control.legend else []
         else:

@@ -125,14 +125,12 @@ class Panel(ipywidgets.VBox):
         self.viewer.controls = [f"IPY_MODEL_{widget.model_id}" for widget in touchable]
         self.viewer.driven_by(self._drivers(values))
         self.viewer.observe(self._frame_changed, ["frame", "playing"])
-        for target in self._targets():
-            self.viewer.held_by(target.path, target.letter, target.sliders)
+        self.viewer.held_by(self._targets())
         self.viewer.observe(self._dragged, "dragged")
         cells.take_place(self)
         cells.afterwards(self._catch_up)
 
     # -- values
-
     @property
     def values(self) -> dict[str, Any]:
         """Name -> value of every control, in radians and metres."""
@@ -158,7 +156,7 @@ class Panel(ipywidgets.VBox):
             try:
                 self._put(values)
                 if not all(isinstance(self._controls[name], parts.Toggle) for name in values):
-                    self._end_motion()
+                    self.end_motion()
                 self.refresh(live=any(getattr(plot, "held", False) for plot in self.below))
             except Exception as error:  # a value that is refused moves nothing
                 self._put(before)
@@ -172,7 +170,7 @@ class Panel(ipywidgets.VBox):
             with self._silence():
                 for control in self._controls.values():
                     control.reset()
-            self._end_motion()
+            self.end_motion()
             self.refresh()
 
     def refresh(self, live: bool = False) -> None:
@@ -182,6 +180,7 @@ class Panel(ipywidgets.VBox):
             try:
                 values = self._updated()
                 self.viewer.driven_by(self._drivers(values))
+                self.viewer.held_by(self._targets())
                 self.viewer.sync(self.scene, self.motion.frame if self.motion else None)
                 self.line.value = self._words(values)
                 self._draw_below(values, lambda plot: not live or plot.has_time(values))
@@ -239,7 +238,6 @@ class Panel(ipywidgets.VBox):
             self.refresh()
 
     # -- what a notebook stores
-
     def __repr__(self) -> str:
         return f"{self.title}: {'closed' if self.scene is None else self.scene.text()}"
 
@@ -250,6 +248,8 @@ class Panel(ipywidgets.VBox):
         """Close every widget of the panel: nothing of it stays in the kernel or the page."""
         cells.SHOWN.pop(self, None)
         layout.close(self)
+        for widget in self._widgets():  # those of a target in the picture stand in no column
+            layout.close(widget)
         # The notebook's Out[...] keeps the panel for ever: what it drew must not stay with it.
         if hasattr(self, "viewer"):  # a panel that was refused half-way has none
             self.viewer.forget()
@@ -260,7 +260,6 @@ class Panel(ipywidgets.VBox):
         self._drivers = self._theta_sliders
 
     # -- inside
-
     def _put(self, values):
         with self._silence():
             for name, value in values.items():
@@ -317,7 +316,7 @@ class Panel(ipywidgets.VBox):
             self._was_put = True
             if not self._quiet:
                 if not isinstance(change.owner, parts.Toggle):
-                    self._end_motion()
+                    self.end_motion()
                 self.refresh(live=getattr(change.owner, "live", False))
 
     def _answer(self, _change):
@@ -331,23 +330,24 @@ class Panel(ipywidgets.VBox):
             if self._quiet:
                 return
             if self.motion is None or self.viewer.frame < 0:
-                self._end_motion()  # the page may not know yet that it has ended
+                self.end_motion()  # the page may not know yet that it has ended
             elif (self.motion.frame, self._played) != (self.viewer.frame, self.viewer.playing):
                 last = len(self.motion.thetas) - 1
                 self.motion.frame, self._played = min(max(self.viewer.frame, 0), last), self.viewer.playing
                 self.refresh(live=self._played)
 
     def _dragged(self, change):
-        """A hand in the picture moved the target or the joints: their sliders say so, all at once."""
+        """A hand in the picture moved a target or the joints: their sliders say so, all at once."""
         with self._lock:
             told = change.new
-            sliders = self._targets()[0].sliders if told["what"] == "target" else self._drivers(self.values)
+            moved = {target.path: target.sliders for target in self._targets()}.get(told["what"])
+            sliders = moved or self._drivers(self.values)
             with self._silence():
                 for slider, value in zip(sliders, told["values"], strict=False):
                     if slider is not None and value is not None:
                         slider.value, slider.live = value, told["live"]
             try:
-                self._end_motion()
+                self.end_motion()
                 self.refresh(live=told["live"])
             finally:
                 self.viewer.heard = told["count"]
@@ -360,7 +360,8 @@ class Panel(ipywidgets.VBox):
             if not change.new["live"]:
                 self._catch_up()
 
-    def _end_motion(self):
+    def end_motion(self) -> None:
+        """Take a motion away: what it shows last stays."""
         self.motion = None
         with self._silence():
             self.viewer.end()

@@ -31,7 +31,8 @@ class PoseSliders(Sliders):
     `reach` tells which poses can be reached; without it the sliders show no bands.
     """
 
-    path, letter = "/ck/target", "d"
+    path, letter = "/ck/target", "{d}"
+    held = True  # whether there are handles now
     reach: Reach | None = None
     _cost = np.inf  # seconds that bands took when they were quickest: the first time is no measure
 

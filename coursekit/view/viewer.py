@@ -12,7 +12,7 @@ view, a late view and a reloaded page come right by themselves:
 import contextlib
 import functools
 import itertools
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +27,7 @@ from coursekit.view.controls import Slider
 from coursekit.view.meshcat import column_major
 from coursekit.view.picture import png
 from coursekit.view.scene import Scene
+from coursekit.view.target import PoseSliders
 
 STATIC = Path(__file__).parent / "static"
 SCRIPTS = ["html", "bundle", "light", "stage", "actors", "player"]
@@ -74,7 +75,7 @@ class Viewer(anywidget.AnyWidget):
     playing = traitlets.Bool(False).tag(sync=True)  # more frames will follow
     drive = traitlets.Dict().tag(sync=True)  # how the page moves an arm by its sliders, see `driven_by`
     theta: traitlets.List = traitlets.List().tag(sync=True)  # where that arm is in `pose`
-    handle = traitlets.Dict().tag(sync=True)  # the target that can be dragged, see `held_by`
+    handles: traitlets.List = traitlets.List().tag(sync=True)  # what can be dragged, see `held_by`
     dragged = traitlets.Dict().tag(sync=True)  # by a hand: {"what", "values", "live", "count"}
     heard = traitlets.Int(0).tag(sync=True)  # the count of the last of them that the kernel has taken over
     controls: traitlets.List = traitlets.List().tag(sync=True)  # references to models
@@ -147,21 +148,18 @@ class Viewer(anywidget.AnyWidget):
             "per": [slider.shown_per_si if slider else 1.0 for slider in sliders],
         }
 
-    def held_by(self, path: str, letter: str, sliders: Sequence[Slider]) -> None:
-        """Let a person drag a frame in the picture.
-
-        Parameters
-        ----------
-        path : the frame's, in the scene
-        letter : what its handle is called
-        sliders : six, for x, y, z, yaw, pitch, roll
-        """
-        self.handle = {
-            "path": path,
-            "letter": letter,
-            "sliders": [f"IPY_MODEL_{slider.model_id}" for slider in sliders],
-            "per": [slider.shown_per_si for slider in sliders],
-        }
+    def held_by(self, targets: Iterable[PoseSliders]) -> None:
+        """Let a person drag those that are `held`: frames and, with three sliders and no more, points."""
+        self.handles = [
+            {
+                "path": one.path,
+                "letter": one.letter,
+                "sliders": [f"IPY_MODEL_{slider.model_id}" for slider in one.sliders],
+                "per": [slider.shown_per_si for slider in one.sliders],
+            }
+            for one in targets
+            if one.held
+        ]
 
     def set_pose(self, transforms: ArrayLike) -> None:
         """Move what moves: transforms (k, 4, 4) in the order of `scene.moving`, in one message."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
-from coursekit.view import mine, pointing, sketch
+from coursekit.view import mine, pointing, predict, sketch
 from coursekit.view.controls import Control, JointSliders, Slider, Sliders
 from coursekit.view.panel import Panel
 from coursekit.view.scene import Scene
@@ -26,6 +26,7 @@ class Explorer:
     opener: ClassVar[str]  # the function of `view` that opens it
     in_space: ClassVar[bool] = True  # the space frame is drawn
     computed: ClassVar[tuple[str, ...]] = ()  # paths of what only `update` can place for another theta
+    predicts: ClassVar[bool] = False  # it asks questions: `begin`, `question`, `secret`
 
     def __init__(self, robot: Robot, student: Any = None) -> None:
         self.robot = robot
@@ -33,6 +34,7 @@ class Explorer:
         self.scene = Scene()
         self.joints: JointSliders | None = None  # those of theta, where there are some
         self.panel: Panel | None = None
+        self.prediction = predict.Prediction(self.scene)
 
     @property
     def frame(self) -> int | None:
@@ -71,6 +73,21 @@ class Explorer:
         """The formula that the picture is about: its parts show there what they mean."""
         return []
 
+    def begin(self, number: int) -> None:
+        """Put the controls where question `number` begins."""
+
+    def question(self, values: dict[str, Any]) -> predict.Question | str:
+        """What is asked at these values; in words why nothing is."""
+        raise NotImplementedError
+
+    def secret(self) -> None:
+        """Hide what would tell the answer: called after `update` as long as a question is open."""
+
+    @property
+    def asking(self) -> bool:
+        """Whether a question is open."""
+        return self.prediction.question is not None and not self.prediction.told
+
     def yours(self, name: str, values: dict[str, Any]) -> str:
         """Draw what the student's function of this name says for these values; the words for it.
 
@@ -89,18 +106,30 @@ class Explorer:
 
     def _show(self, values):
         self.update(values)
+        if self.predicts and self.panel:
+            self._ask(values["predict"])
         live = self.panel is not None and self.panel.live
         waits = self.mine.look(lambda name: self.yours(name, values), self.scene, live)
         self.scene.said = self.mine.words(timed=False)
         if waits and self.panel:
             self.panel.late = True
 
+    def _ask(self, on):
+        if self.prediction.begins(on, self.robot):
+            self.panel.end_motion()
+            self.begin(self.prediction.number)
+            self.update(self.panel.values)
+        self.prediction.ask(self.question(self.panel.values) if on else None, self.frame is None)
+        if self.asking:
+            self.secret()
+
     def _say(self, values):
-        return "\n".join([self.words(values), *self.mine.words()])
+        return "\n".join([*self.prediction.words(), self.words(values), *self.mine.words()])
 
     def open(self, height: int, theta: ArrayLike | None = None) -> Panel:
         """The panel, `height` pixels of picture, the arm at theta (n,) where that is given."""
-        controls, below = [*self.controls(), *self.more()], self.below()
+        asks = self.prediction.controls() if self.predicts else []
+        controls, below = [*self.controls(), *self.more(), *asks], self.below()
         if theta is not None:
             self.start_at(np.asarray(theta, float))
         if self.in_space:
@@ -115,7 +144,7 @@ class Explorer:
             self.title,
             height,
             drivers=self.drivers,
-            computed=[*self.computed, *([sketch.ROOT] if self.mine.functions else [])],
+            computed=[*self.computed, predict.ROOT, *([sketch.ROOT] if self.mine.functions else [])],
             formula=pointing.Formula(self.formula),
         )
         return self.panel

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import dh, lie, robots
 from coursekit.kinematics.robot import Robot
-from coursekit.view import pointing, text
+from coursekit.view import pointing, predict, text
 from coursekit.view.controls import Choice, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer
 from coursekit.view.panel import Panel
@@ -51,6 +51,7 @@ def explore(
 
 class _Conventions(Explorer):
     name, title, opener = "conventions", "Explorer of DH and PoE", "explore"
+    predicts = True
 
     def __init__(self, arms, mine):
         super().__init__(arms[0], mine)
@@ -137,6 +138,25 @@ class _Conventions(Explorer):
         """Joint value k with its unit."""
         turns = self.robot.joint_types[k - 1] == "revolute"
         return (text.degrees if turns else text.millimetres)(theta[k - 1])
+
+    # -- where will the tool be?
+
+    def begin(self, number):
+        self.joints.show(predict.a_pose(self.robot, self.robot.home, number))
+
+    def question(self, values):
+        robot, theta, number = self.robot, values["theta"], self.prediction.number
+        if not np.array_equal(theta, predict.a_pose(robot, robot.home, number)):
+            return predict.MOVED
+        move = predict.a_move(robot, theta, number)
+        if move is None:
+            return predict.NONE
+        j, by = move
+        end = theta + by * np.eye(robot.n)[j]
+        goes = f"theta{j + 1} goes from {self.shown(j + 1, theta)} to {self.shown(j + 1, end)}"
+        asked = f"{goes}. Where will the tool be? Drag the point there."
+        play = lambda _right: self.panel.play(np.linspace(theta, end, 31))  # noqa: E731
+        return predict.where_after(robot, theta, j, by, asked, show=play)
 
     # -- the arm by the student's functions
 

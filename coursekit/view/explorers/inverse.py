@@ -5,9 +5,9 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from coursekit.kinematics import ik, robots
+from coursekit.kinematics import ik, robots, rotations
 from coursekit.kinematics.robot import Robot
-from coursekit.view import pointing, text
+from coursekit.view import pointing, predict, text
 from coursekit.view.controls import Action, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.explorers.solver import Solver
@@ -57,12 +57,14 @@ class _Inverse(yours.Inverse, Explorer):
     """The target, its solutions, the one that is shown and Newton's run."""
 
     name, title, opener = "inverse", "Explorer of inverse kinematics", "explore_inverse"
+    predicts = True
 
     def __init__(self, robot, target, mine):
         super().__init__(robot, mine)
         self.solver = Solver(robot)
         start = _configuration(robot, self.solver.closed)
         self.T = robot.fk(start) if target is None else np.array(target, float)
+        self.pose = pose_sliders(self.T, robot, reach=self.solver.reaches if self.solver.closed else None)
         self.ways = self.solver.solve(self.T, start[None])
         self.chosen = self.solver.nearest(self.ways, start)
         self.shown = self.ways.theta[self.chosen] if self.chosen >= 0 else start
@@ -78,7 +80,7 @@ class _Inverse(yours.Inverse, Explorer):
         for slider in guess.sliders:
             slider.label = f"guess {slider.label}"
         return [
-            pose_sliders(self.T, robot, reach=self.solver.reaches if self.solver.closed else None),
+            self.pose,
             Toggle("others", "other solutions", start=True),
             Toggle("trace", "Newton's way"),
             Action("steps", "show Newton's steps", self.play),
@@ -106,6 +108,29 @@ class _Inverse(yours.Inverse, Explorer):
 
     def play(self, autoplay=True):
         self.panel.play(self.steps(), fps=2.0, autoplay=autoplay)
+
+    # -- where will the elbow be?
+
+    def begin(self, number):
+        """Another target: the solutions of this one are known."""
+        start = _configuration(self.robot, self.solver.closed)
+        T = self.robot.fk(predict.a_pose(self.robot, start, number + 1))
+        self.pose.put([*T[:3, 3], *rotations.zyx(T[:3, :3])])
+
+    def question(self, values):
+        if not self.reached:
+            return "Predict: nothing, as this target is out of reach. Move it, or: next question."
+        if "endlessly" in self.ways.count:
+            return "Predict: not here: this arm has endlessly many solutions, and its elbow no place."
+        rows, names = np.flatnonzero(self.ways.exists), np.array(self.ways.names)[self.ways.exists]
+        asked = "the arm waits at home, and will go where the tool is at {d}."
+        return predict.which_elbow(
+            self.robot, self.robot.home, self.theta[rows], names, asked, lambda i: self.list.put(int(rows[i]))
+        )
+
+    def secret(self):
+        self.arm.theta = self.robot.home
+        self.draw_ghosts({}, False)
 
     def solve(self, pose, guess, row):
         """The ways to the target, which of them is shown, and Newton's run."""
@@ -178,6 +203,8 @@ class _Inverse(yours.Inverse, Explorer):
 
     def which(self):
         """What the solid arm shows."""
+        if self.asking:
+            return "the arm waits at home"
         if self.frame is None:
             name = f"shown: {self.ways.names[self.chosen]}," if self.reached else "the arm stays at"
             return f"{name} {self.say(self.shown)}"
@@ -221,6 +248,8 @@ class _Inverse(yours.Inverse, Explorer):
     def figures(self, values):
         """Every solution as a small picture, in the order of the table."""
         ways = self.ways
+        if self.asking:
+            return []
         lines = silhouettes(self.robot, ways.theta, self.T[:3, 3])
         notes = np.where(ways.inside, "", np.where(ways.exists, "outside", "none"))
         return [

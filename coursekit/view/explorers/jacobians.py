@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import checks, ik, jacobians, robots, singularity
 from coursekit.kinematics.robot import Robot
-from coursekit.view import pointing, text
+from coursekit.view import pointing, predict, text
 from coursekit.view.controls import Action, Slider, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.panel import Panel
@@ -71,6 +71,7 @@ class _Jacobians(yours.Jacobians, Explorer):
 
     name, title, opener = "jacobians", "Explorer of Jacobian methods", "explore_jacobians"
     computed = ("/ck/linear", "/ck/angular", "/ck/columns")
+    predicts = True
 
     def __init__(self, robot, poses, mine):
         super().__init__(robot, mine)
@@ -170,6 +171,31 @@ class _Jacobians(yours.Jacobians, Explorer):
             for k, (column, slides) in enumerate(zip(J.T, ~np.any(self.robot.S[:3], axis=0), strict=True), 1)
         ]
         return [["J(θ) = ( ", *columns, " )"]]
+
+    # -- which way does the tool go?
+
+    def begin(self, number):
+        self.asked_at = self.joints.get()
+
+    def question(self, values):
+        robot, theta = self.robot, values["theta"]
+        if not np.array_equal(theta, self.asked_at):
+            return predict.MOVED
+        J = robot.jacobian_geometric(theta)
+        speed = np.linalg.norm(J[3:], axis=0)
+        fast = np.flatnonzero(speed > max(0.1 * speed.max(), 1e-6))
+        if not len(fast):
+            return predict.NONE
+        j = int(fast[self.prediction.number % len(fast)])
+        w, v = J[:3, j], J[3:, j]
+        others = {"that is the axis, and the tool moves across it": w}
+        others["that is the lever, from the axis to the tool, and the tool moves across it"] = np.cross(v, w)
+        others |= {f"as if joint {k + 1} moved": J[3:, k] for k in (j - 1, j + 1) if 0 <= k < robot.n}
+        rate = "1 rad/s" if np.any(w) else "1 m/s"
+        asked = f"joint {j + 1} alone moves, at {rate}. Which way does the tool go? Drag the arrow's tip."
+        return predict.which_way(
+            robot.fk(theta)[:3, 3], v, others, asked, (robot.name, j, *theta), self.scene.size
+        )
 
     def words(self, values):
         robot, theta = self.robot, values["theta"]

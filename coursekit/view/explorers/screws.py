@@ -6,7 +6,7 @@ import numpy as np
 
 from coursekit.kinematics import axes, lie, robots
 from coursekit.kinematics.robot import Robot
-from coursekit.view import pointing, text
+from coursekit.view import pointing, predict, text
 from coursekit.view.controls import Choice, Slider
 from coursekit.view.explorers import Explorer
 from coursekit.view.panel import Panel
@@ -46,11 +46,14 @@ def explore_screws(
 class _Screws(Explorer):
     name, title, opener = "screws", "Explorer of screws", "explore_screws"
     in_space = False  # but as one of the frames that look on
+    predicts = True
 
     def __init__(self, robot, mine):
         super().__init__(robot, mine)
         self.frames = _frames(robot)
         self.turn = Slider("turn", 0.0, -np.pi, np.pi, unit="deg", label="turn joint")
+        joints = {f"joint {i + 1}": i for i in range(robot.n)}
+        self.joint = Choice("joint", joints, start="joint 2" if robot.n > 1 else "joint 1")
         self.unit = "deg"  # of that slider, which serves every joint in turn
         self.origins = robot.link_frames(np.zeros(robot.n))[:, :3, 3]
         self.directions, self.points = axes.directions_of(robot.S), axes.points_on(robot.S)
@@ -60,9 +63,8 @@ class _Screws(Explorer):
         self.pointed = None  # for which frame, joint and point the screws stand ready
 
     def controls(self):
-        joints = {f"joint {i + 1}": i for i in range(self.robot.n)}
         return [
-            Choice("joint", joints, start="joint 2" if self.robot.n > 1 else "joint 1"),
+            self.joint,
             Choice("frame", self.frames, label="seen from"),
             Slider("slide", 0.0, -0.3, 0.3, unit="mm", label="slide q"),
             self.turn,
@@ -87,6 +89,8 @@ class _Screws(Explorer):
     def update(self, values):
         i, scene = values["joint"], self.scene
         self.fit_slider(i)
+        if self.frame is not None:
+            self.turn.show(self.panel.motion.theta[i])
         self.S = self.robot.S[:, i]
         w, v, along = self.S[:3], self.S[3:], self.directions[i]
         on_axis = self.origins[i] if self.slides(i) else self.points[i]
@@ -179,6 +183,29 @@ class _Screws(Explorer):
             f"tool at {text.millimetres(tool)} after {text.degrees(moved)}",
         ]
         return "\n".join(lines)
+
+    # -- where will the tool be?
+
+    def begin(self, number):
+        move = predict.a_move(self.robot, np.zeros(self.robot.n), number, free=True)
+        self.joint.put(self.joint.get() if move is None else move[0])
+        self.turn.put(0.0)
+
+    def question(self, values):
+        robot, zero = self.robot, np.zeros(self.robot.n)
+        move = predict.a_move(robot, zero, self.prediction.number, free=True)
+        if move is None:
+            return predict.NONE
+        j, by = move
+        if values["joint"] != j or self.turn.get():
+            return predict.MOVED
+        S = f"S{j + 1} = {text.row(robot.S[:, j])}"
+        slides = f"slides by {text.millimetres(by, 0)} along" if self.slides(j) else ""
+        goes = slides or f"turns by {text.degrees(by, 0)} about"
+        asked = f"joint {j + 1} {goes} its screw {S}, all others rest at zero. Where will the tool be?"
+        end = by * np.eye(robot.n)[j]
+        play = lambda _right: self.panel.play(np.linspace(zero, end, 31))  # noqa: E731
+        return predict.where_after(robot, zero, j, by, f"{asked} Drag the point there.", show=play)
 
     # -- the axes by the student's functions
 

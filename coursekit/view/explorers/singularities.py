@@ -8,9 +8,10 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import axes, robots, singularity
 from coursekit.kinematics.robot import Robot
-from coursekit.view import pointing, text
+from coursekit.view import pointing, predict, text
 from coursekit.view.controls import Action, Choice, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
+from coursekit.view.explorers.singular import hinges_of, nearest, singular_poses, start_of, weakest
 from coursekit.view.figures import nb04
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
@@ -68,12 +69,13 @@ def explore_singularities(
 class _Singularities(yours.Singularities, Explorer):
     name, title, opener = "singularities", "Explorer of singularities", "explore_singularities"
     computed = ("/ck/lost", "/ck/meets_all")
+    predicts = True
 
     def __init__(self, arms, mine):
         super().__init__(arms[0], mine)
         self.arms = {arm.name: arm for arm in arms}
         self.split = nb04.has_factors(self.robot)  # all of them or, where it is one, this one
-        self.joints = joint_sliders(self.robot, _start(self.robot))
+        self.joints = joint_sliders(self.robot, start_of(self.robot))
         n = self.robot.n
         some = {f"θ{k + 1}": k for k in range(1 if n > 2 else 0, n)}  # sigma does not depend on joint 1
         self.offered = JOINTS if self.split else some
@@ -113,11 +115,10 @@ class _Singularities(yours.Singularities, Explorer):
         scene.remove("/ck/robot")
         scene.remove(ROOT)
         # the camera leaves room for the stretched arm
-        end = nearest(robot, _start(robot), "elbow") if self.split else None
-        self.arm = scene.robot(robot, _start(robot) if end is None else end)
+        end = nearest(robot, start_of(robot), "elbow") if self.split else None
+        self.arm = scene.robot(robot, start_of(robot) if end is None else end)
         origins = robot.link_frames(np.zeros(robot.n))[:, :3, 3]
-        hinges = np.array([kind == "revolute" for kind in robot.joint_types])
-        places = np.where(hinges[:, None], axes.points_on(robot.S), origins)
+        places = np.where(hinges_of(robot)[:, None], axes.points_on(robot.S), origins)
         self.lines = []
         for k, (q, w) in enumerate(zip(places, axes.directions_of(robot.S), strict=True)):
             ends = axes.foot(origins[k], q, w) + np.outer([-0.6, 0.6], w) * scene.size
@@ -130,7 +131,7 @@ class _Singularities(yours.Singularities, Explorer):
             )
             pointing.mean(wrist, "elbow", "shoulder", "wrist")
         for k, slider in enumerate(self.joints.used):
-            slider.fit_joint(robot, k, _start(robot)[k])
+            slider.fit_joint(robot, k, start_of(robot)[k])
 
     def update(self, values):
         if values.get("robot", self.robot) is not self.robot:
@@ -160,7 +161,45 @@ class _Singularities(yours.Singularities, Explorer):
         return [["det J = ", factors[0], " · ", factors[1], " · ", factors[2]]]
 
     def words(self, values):
-        return words(self.robot, values["theta"])
+        lines = words(self.robot, values["theta"]).splitlines()
+        return "\n".join(line for line in lines if not (self.asking and line.startswith("lost: ")))
+
+    # -- which motion is lost?
+
+    def begin(self, number):
+        """At a singular pose, where no question was asked before; another one for each question."""
+        theta = self.joints.get()
+        if number or not _one_is_lost(self.robot, theta):
+            fit = (
+                end for end in singular_poses(self.robot, self.split, number) if _one_is_lost(self.robot, end)
+            )
+            self.joints.show(next(fit, theta))
+
+    def question(self, values):
+        robot, theta = self.robot, values["theta"]
+        if robot.n < 6:
+            return (
+                "Predict: an arm with fewer than six joints loses motions everywhere; nothing is asked here."
+            )
+        if not _one_is_lost(robot, theta):
+            return "Predict: here not just one motion is lost. Go to a singular pose, or: next question."
+        moment, force, _ = _loss(robot, theta)
+        at, J = _reference(robot, theta), robot.jacobian_space(theta)
+        free = np.flatnonzero(np.abs(J[:3].T @ moment) < 1e-6)  # joints whose part of the motion is not lost
+        point = "wrist" if self.split else "tool point"
+        if np.linalg.norm(moment) > 0.3:
+            asked = f"while the {point} stands still, there is one axis about which the hand cannot turn"
+            right, others = moment, {f"about axis {k + 1} it does turn": J[:3, k] for k in free}
+        else:
+            turn = "" if np.linalg.norm(moment) < 1e-6 else ", as long as the hand does not turn"
+            asked = f"there is one direction in which the {point} cannot move{turn}"
+            v = J[3:] + np.cross(J[:3].T, at).T
+            right, others = force, {f"that way joint {k + 1} does move it": v[:, k] for k in free}
+        asked += ". Point along it: drag the tip of the arrow; either way round is right."
+        return predict.which_way(at, right, others, asked, (robot.name, *theta), self.scene.size, False)
+
+    def secret(self):
+        _show_loss(self.scene, self.robot, self.arm.theta, False, False)
 
     def plot(self, figure, values):
         nb04.draw_map(figure.subplots(), self.robot, values["theta"], values["across"], values["up"])
@@ -197,57 +236,6 @@ class _Singularities(yours.Singularities, Explorer):
     def drive_to_weakest(self):
         start = self.panel.values["theta"]
         self.panel.play(np.linspace(start, weakest(self.robot, start), 31))
-
-
-def weakest(robot: Robot, theta: ArrayLike) -> np.ndarray:
-    """The configuration with the smallest sigma_min that one joint alone leads to, inside the limits.
-
-    >>> panda = robots.franka_panda()
-    >>> end = weakest(panda, panda.home)
-    >>> int(np.flatnonzero(end != panda.home)[0]) + 1, bool(singularity.sigma_min(panda, end) < 0.01)
-    (4, True)
-    """
-    theta, (low, high) = np.asarray(theta, float), nb04.ends_of(robot)
-    best = theta
-    for joint in range(robot.n):
-        a, b = low[joint], high[joint]
-        for _ in range(6):  # finer and finer about the lowest of 81
-            turned = np.tile(theta, (81, 1))
-            turned[:, joint] = np.linspace(a, b, 81)
-            sigma = singularity.sigma_min(robot, turned)
-            end = turned[sigma.argmin()]
-            step = (b - a) / 80
-            a, b = max(low[joint], end[joint] - step), min(high[joint], end[joint] + step)
-        if sigma.min() < 0.99 * singularity.sigma_min(robot, best) - 1e-9:
-            best = end
-    return best
-
-
-def nearest(robot: Robot, theta: ArrayLike, name: str) -> np.ndarray | None:
-    """The configuration nearest to theta, by one joint and inside the limits, where a factor is 0; or None.
-
-    A factor is A + B cos + C sin of any one joint angle, so its values at three angles tell its zeros.
-
-    >>> kr6 = robots.kuka_kr6()
-    >>> float(nearest(kr6, [0, -0.7, 0.9, 0.5, 0.8, 0.2], "elbow")[2].round(6))
-    0.083141
-    """
-    theta = np.asarray(theta, float)
-    low, high = nb04.ends_of(robot)
-    found = []
-    for joint in range(1, 5):
-        turned = np.array([theta] * 3)
-        turned[:, joint] = 0, np.pi / 2, np.pi
-        at_0, at_90, at_180 = singularity.factors(robot, turned)[name]
-        A, B = (at_0 + at_180) / 2, (at_0 - at_180) / 2
-        size = np.hypot(B, at_90 - A)
-        if size < 1e-9 or abs(A) > size:
-            continue
-        middle, half = np.arctan2(at_90 - A, B), np.arccos(-A / size)
-        roots = middle + np.outer([half, -half], np.ones(5)) + 2 * np.pi * np.arange(-2, 3)
-        inside = roots[(roots >= low[joint]) & (roots <= high[joint])]
-        found += [np.where(np.arange(robot.n) == joint, root, theta) for root in inside]
-    return min(found, key=lambda end: np.abs(end - theta).max(), default=None)
 
 
 def words(robot: Robot, theta: ArrayLike) -> str:
@@ -315,15 +303,13 @@ def _factor_of(k):
 
 
 def _shown_per_si(robot):
-    return np.where([kind == "revolute" for kind in robot.joint_types], 180 / np.pi, 1000.0)
+    return np.where(hinges_of(robot), 180 / np.pi, 1000.0)
 
 
-def _start(robot):
-    """A regular configuration near home, (n,); slides in the middle of their way."""
-    low, high = nb04.ends_of(robot)
-    turned = robot.home + np.resize(np.radians([0, 10, 20, 25, 45, 0]), robot.n)
-    hinges = np.array([kind == "revolute" for kind in robot.joint_types])
-    return np.clip(np.where(hinges, turned, (low + high) / 2), low, high)
+def _one_is_lost(robot, theta):
+    """Whether five motions are left, and all five clearly."""
+    sigma = np.linalg.svd(robot.jacobian_geometric(theta), compute_uv=False)
+    return len(sigma) == 6 and sigma[5] < 1e-6 and sigma[4] > 1e-3
 
 
 def _reference(robot, theta):

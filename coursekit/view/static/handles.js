@@ -1,4 +1,4 @@
-// What a hand can take hold of in the picture: arrows and rings at a target, the tool, the links of the arm. By mouse,
+// What a hand can take hold of in the picture: arrows and rings at a target, a point, the tool, the links. By mouse,
 // touch and keys. They are HTML over the picture, so that they are found by Tab and by a screen reader, and cost no frame.
 //
 // A grip moves its point by one number; where the pointer goes, that number follows: along the way of the point on the
@@ -7,15 +7,14 @@
 const ARROW = 88, RING = 48, EDGE = 16; // pixels
 const SVG = "http://www.w3.org/2000/svg";
 
-// taken(what): a hand has moved "theta" or the "target"; redraw(): what stands where has changed
+// taken(what): a hand has moved "theta" or the target at a path; redraw(): what stands where has changed
 function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, redraw }) {
   const layer = element("div", { class: "ck-handles", role: "group", "aria-label": "handles in the picture" });
   const lines = document.createElementNS(SVG, "svg");
   lines.setAttribute("aria-hidden", "true");
   layer.append(lines);
   pane.append(layer);
-  let target = null, drawn = []; // the target's sliders; buttons with where they stand
-  let held = null; // values of the target in our hands, before the kernel has them
+  let targets = [], drawn = []; // each with its sliders, `held`: its values in our hands, before the kernel has them
   let sent = 0, over = false;
 
   // --- from metres to pixels: a point of the space frame on the screen
@@ -57,13 +56,13 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
     model.save_changes();
   };
   const unheard = () => sent > model.get("heard");
-  const putTarget = (T, live) => {
-    put("target", target.sliders, valuesOf(T).map((value, k) => value * target.per[k]), live);
-    held = target.sliders.map((slider, k) => slider.get("value") / target.per[k]);
-    taken("target");
+  const putTarget = (target, T, live) => {
+    put(target.name, target.sliders, target.per.map((per, k) => valuesOf(T)[k] * per), live);
+    target.held = target.sliders.map((slider, k) => slider.get("value") / target.per[k]);
+    taken(target.name);
   };
-  const targetValues = () => held || target.sliders.map((slider, k) => slider.get("value") / target.per[k]);
-  const targetPose = () => poseOf(targetValues());
+  const isPoint = (target) => target.sliders.length === 3; // moved as it is turned: not at all
+  const targetPose = ({ held, sliders, per }) => poseOf([...(held || sliders.map((slider, k) => slider.get("value") / per[k])), 0, 0, 0]);
   const putTheta = (theta, live) => {
     const { per } = model.get("drive");
     put("theta", follower.sliders(), theta.map((q, k) => q * per[k]), live);
@@ -75,8 +74,8 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
   });
 
   // --- grips: where each stands, and what a pull and a key do
-  const targetGrips = () => [0, 1].flatMap((kind) => [0, 1, 2].map((k) => {
-    const T = () => targetPose();
+  const targetGrips = (target) => (isPoint(target) ? [0] : [0, 1]).flatMap((kind) => [0, 1, 2].map((k) => {
+    const T = () => targetPose(target);
     const column = (j) => T().slice(4 * j, 4 * j + 3);
     const origin = () => T().slice(12, 15);
     const place = () => {
@@ -96,44 +95,49 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
     const name = "xyz"[k];
     return {
       text: kind ? `↻${name}` : name, kind: kind ? `${name} ring` : name, place, path,
-      label: kind ? `turn {${target.letter}} about its ${name}` : `move {${target.letter}} along its ${name}`,
+      label: kind ? `turn ${target.letter} about its ${name}` : `move ${target.letter} along its ${name}`,
       pull(dx, dy) {
         const p = place();
         const way = kind ? crossed(column(k), p.map((x, i) => x - origin()[i])) : column(k);
-        putTarget(movedAlong(T(), kind, k, follow(p, way, dx, dy)), true);
+        putTarget(target, movedAlong(T(), kind, k, follow(p, way, dx, dy)), true);
       },
-      key: (steps, live) => putTarget(movedAlong(T(), kind, k, steps * (kind ? Math.PI / 180 : 0.01)), live),
-      end: () => putTarget(T(), false),
+      key: (steps, live) => putTarget(target, movedAlong(T(), kind, k, steps * (kind ? Math.PI / 180 : 0.01)), live),
+      end: () => putTarget(target, T(), false),
     };
   }));
-  const toolGrip = () => {
-    const arm = () => model.get("drive");
-    const place = () => product(displacements(arm().screws, follower.theta()).at(-1), arm().M).slice(12, 15);
+  // A point that goes where the pointer goes, in the plane of the screen. place(): where it is; put(goal, live)
+  const freeGrip = (text, label, place, put) => {
     let goal = null;
-    const reach = (live) => putTheta(reachFor(arm(), follower.theta(), goal, ends()), live);
     return {
-      text: "tool", kind: "tool", place, path: () => [], label: "move the tool",
-      pull(dx, dy) { // in the plane of the screen
+      text, kind: "tool", place, path: () => [], label,
+      pull(dx, dy) {
         goal = goal || place();
         const [right, up] = [0, 1].map((k) => new THREE.Vector3().setFromMatrixColumn(viewer.camera.matrixWorld, k));
         const way = right.multiplyScalar(dx).addScaledVector(up, -dy).divideScalar(perMetre(goal));
         const frame = viewer.scene_tree.find(["ck"]).object.matrixWorld.clone().invert();
         way.transformDirection(frame).multiplyScalar(Math.hypot(dx, dy) / perMetre(goal));
         goal = goal.map((x, i) => x + way.toArray()[i]);
-        reach(true);
+        put(goal, true);
       },
       key(steps, live, axis = 0) {
-        goal = place();
-        goal[axis] += 0.01 * steps;
-        reach(live);
-        goal = null;
+        const there = place();
+        there[axis] += 0.01 * steps;
+        put(there, live);
       },
       end() {
         goal = null;
-        putTheta(follower.theta(), false);
+        put(null, false);
       },
     };
   };
+  const toolGrip = () => {
+    const arm = () => model.get("drive");
+    const place = () => product(displacements(arm().screws, follower.theta()).at(-1), arm().M).slice(12, 15);
+    const reach = (goal, live) => putTheta(goal ? reachFor(arm(), follower.theta(), goal, ends()) : follower.theta(), live);
+    return freeGrip("tool", "move the tool", place, reach);
+  };
+  const pointGrip = (target) => freeGrip("?", `move ${target.letter}`, () => targetPose(target).slice(12, 15),
+    (goal, live) => putTarget(target, goal ? poseOf([...goal, 0, 0, 0]) : targetPose(target), live));
 
   // --- one button for each grip
   const hold = (event, grip, node) => { // until the pointer is let go
@@ -185,21 +189,23 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
   };
 
   const rebuild = () => {
-    const grips = [...(target ? targetGrips() : []), ...(follower.sliders().some(Boolean) ? [toolGrip()] : [])];
+    const grips = [...targets.flatMap(targetGrips), ...targets.filter(isPoint).map(pointGrip)];
+    if (movesArm()) grips.push(toolGrip());
     lines.replaceChildren();
     drawn.forEach(({ node }) => node.remove());
     drawn = grips.map(makeButton);
     redraw();
   };
+  const movesArm = () => follower.sliders().some(Boolean) && !targets.some(isPoint); // or else it is predicted, not tried
   const listen = async () => {
-    const { path, letter, per } = model.get("handle") || {};
-    const sliders = path && (await childModels(model, "handle", "sliders"));
+    const found = await Promise.all((model.get("handles") || []).map(async ({ path, letter, per, sliders }) =>
+      ({ name: path, path: splitPath(path), letter, per, sliders: await childModels(model, sliders), held: null })));
     await follower.ready();
     if (over) return;
-    target = sliders ? { sliders, letter, per, path: splitPath(path) } : null;
+    targets = found;
     rebuild();
   };
-  model.on("change:handle", listen);
+  model.on("change:handles", listen);
   model.on("change:drive", listen);
   listen();
 
@@ -207,7 +213,7 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
   const ray = new THREE.Raycaster(), at = new THREE.Vector2();
   const linkAt = (event) => { // number of the joint, and the point where it was taken
     const { path, screws } = model.get("drive"), sliders = follower.sliders();
-    if (!path || !sliders.some(Boolean)) return null;
+    if (!path || !movesArm()) return null;
     const area = pane.getBoundingClientRect();
     at.set((2 * (event.clientX - area.left)) / area.width - 1, 1 - (2 * (event.clientY - area.top)) / area.height);
     ray.setFromCamera(at, viewer.camera);
@@ -245,12 +251,14 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
   });
 
   return {
-    // the page's own pose of the target, as long as the kernel has not said the last one
+    // the page's own pose of a target, as long as the kernel has not said the last one
     place() {
-      if (held && !unheard()) held = null;
-      if (!held || !target) return;
-      target.sliders.forEach((slider, k) => slider.set("value", Number((held[k] * target.per[k]).toPrecision(15))));
-      viewer.set_transform(target.path, targetPose());
+      for (const target of targets) {
+        if (!unheard()) target.held = null;
+        if (!target.held) continue;
+        target.sliders.forEach((slider, k) => slider.set("value", Number((target.held[k] * target.per[k]).toPrecision(15))));
+        viewer.set_transform(target.path, targetPose(target));
+      }
     },
     draw() { // gives where they stand
       const { width, height } = renderer.size(), shownAt = [];
@@ -270,7 +278,7 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
     end() {
       over = true;
       clearTimeout(rests);
-      model.off("change:handle", listen);
+      model.off("change:handles", listen);
       model.off("change:drive", listen);
     },
   };

@@ -333,7 +333,7 @@ function watchKernel(model, line) {
   };
   model.on("change:answers", answered);
   model.on("change:dragged", asked);
-  childModels(model, "controls").then((controls) => {
+  childModels(model, model.get("controls") || []).then((controls) => {
     if (over) return;
     for (const control of controls) control.on("change:touched", asked);
     forget = () => controls.forEach((control) => control.off("change:touched", asked));
@@ -347,9 +347,7 @@ function watchKernel(model, line) {
   };
 }
 
-// The models behind a trait that holds references to widgets.
-function childModels(model, name, key) {
-  const held = model.get(name) || [];
-  const ids = key ? held[key] : held;
+// The models behind references to widgets.
+function childModels(model, ids) {
   return Promise.all(ids.map((id) => model.widget_manager.get_model(id.replace("IPY_MODEL_", ""))));
 }
