@@ -51,7 +51,7 @@ class Question:
     start: np.ndarray
     judge: Callable[[np.ndarray], Told]
     origin: np.ndarray | None = None
-    show: Callable[[np.ndarray], None] = lambda _right: None
+    show: Callable[[np.ndarray], None] | None = None
 
 
 class Guess(PoseSliders):
@@ -156,7 +156,8 @@ class Prediction:
             self.scene.line(f"{ROOT}/gap", right, guess, "accent", gap, 0.003 * self.scene.size)
         else:
             self.scene.arrow(f"{ROOT}/right", origin, right - origin, "y", "right")
-        self.question.show(right)
+        if self.question.show is not None:
+            self.question.show(right)
 
     def next(self) -> None:
         self.number += 1

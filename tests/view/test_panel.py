@@ -385,11 +385,11 @@ def test_what_a_hand_drags_in_the_picture_goes_to_its_sliders_at_once():
     """One message moves all six sliders of a target, or the joints, and is answered."""
     panel = view.explore_jacobians()
     try:
-        handle = panel.viewer.handle
-        assert (handle["path"], handle["letter"]) == ("/ck/target", "d")
+        (handle,) = panel.viewer.handles
+        assert (handle["path"], handle["letter"]) == ("/ck/target", "{d}")
         assert len(handle["sliders"]) == len(handle["per"]) == 6
         shown = [300.0, 100.0, 500.0, 10.0, 20.0, 30.0]
-        panel.viewer.set_state({"dragged": {"what": "target", "values": shown, "live": True, "count": 1}})
+        panel.viewer.set_state({"dragged": {"what": "/ck/target", "values": shown, "live": True, "count": 1}})
         np.testing.assert_allclose(
             panel.values["pose"], [0.3, 0.1, 0.5, *np.radians([10, 20, 30])], rtol=0, atol=1e-12
         )

@@ -14,6 +14,7 @@ from coursekit.view.figures import nb04
 def weakest(robot: Robot, theta: ArrayLike) -> np.ndarray:
     """The configuration with the smallest sigma_min that one joint alone leads to, inside the limits.
 
+    >>> from coursekit import robots
     >>> panda = robots.franka_panda()
     >>> end = weakest(panda, panda.home)
     >>> int(np.flatnonzero(end != panda.home)[0]) + 1, bool(singularity.sigma_min(panda, end) < 0.01)
@@ -40,6 +41,7 @@ def nearest(robot: Robot, theta: ArrayLike, name: str) -> np.ndarray | None:
 
     A factor is A + B cos + C sin of any one joint angle, so its values at three angles tell its zeros.
 
+    >>> from coursekit import robots
     >>> kr6 = robots.kuka_kr6()
     >>> float(nearest(kr6, [0, -0.7, 0.9, 0.5, 0.8, 0.2], "elbow")[2].round(6))
     0.083141
