@@ -141,7 +141,10 @@ class Prediction:
         if self.question is None:
             return [self._words] if self._words else []
         at, origin = self.guess.get(), self.question.origin
-        said = text.millimetres(at, 0) if origin is None else f"along {text.row(at - origin, 2)}"
+        if origin is None:
+            said = text.millimetres(at, 0)
+        else:
+            said = f"along {text.row((at - origin) / max(np.linalg.norm(at - origin), TINY), 2)}"
         return [f"Predict: {self.question.words}", f"Your guess: {said}. {self.told}".rstrip()]
 
     def show(self) -> None:

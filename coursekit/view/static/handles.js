@@ -254,9 +254,9 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
     // the page's own pose of a target, as long as the kernel has not said the last one
     place() {
       for (const target of targets) {
-        if (!unheard()) target.held = null;
         if (!target.held) continue;
-        target.sliders.forEach((slider, k) => slider.set("value", Number((target.held[k] * target.per[k]).toPrecision(15))));
+        if (!unheard()) target.held = null; // its sliders are now as the kernel has put them
+        else target.sliders.forEach((slider, k) => slider.set("value", Number((target.held[k] * target.per[k]).toPrecision(15))));
         viewer.set_transform(target.path, targetPose(target));
       }
     },
