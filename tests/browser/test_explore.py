@@ -160,6 +160,8 @@ def test_a_second_view_and_a_reloaded_page_show_the_same_pose(notebook, lab):
 def test_running_the_cell_ten_times_leaves_one_panel(explorer):
     models = "len(__import__('ipywidgets').widgets.widget._instances)"
     before = explorer.kernel(models)
+    textures = "() => globalThis[Symbol.for('coursekit.page.1')].renderer.info.memory.textures"
+    drawn = explorer.page.evaluate(textures)
     for _ in range(10):
         explorer.page.evaluate(
             """() => { const n = window.jupyterapp.shell.currentWidget.content; n.activeCellIndex = 1;
@@ -171,6 +173,8 @@ def test_running_the_cell_ten_times_leaves_one_panel(explorer):
     assert explorer.page.locator(".ck-viewer").count() == 1
     assert explorer.page.evaluate("() => globalThis[Symbol.for('coursekit.page.1')].views.size") == 1
     assert explorer.page.evaluate("() => globalThis[Symbol.for('coursekit.page.1')].evaluated") == 1
+    # the shadow of each view goes with it; one other texture a run stays
+    assert explorer.page.evaluate(textures) <= drawn + 12
     assert alive(explorer, "globalThis[Symbol.for('coursekit.page.1')].MeshCat.Viewer.prototype") == 1
     explorer.page.locator("[role=slider]").nth(0).press("PageUp")
     explorer.settle()

@@ -168,6 +168,7 @@ function watchSize(pane, act) {
 function release(object) {
   object.traverse((part) => {
     if (part.geometry) part.geometry.dispose();
+    if (part.shadow) part.shadow.dispose();
     for (const material of [].concat(part.material || [])) {
       if (material.map) material.map.dispose();
       material.dispose();
