@@ -1,10 +1,12 @@
 """A motion of an arm, as a panel plays it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from coursekit.view.drawing import Arm
+from coursekit.view.scene import Scene
 
 
 @dataclass
@@ -19,3 +21,13 @@ class Motion:
     def theta(self) -> np.ndarray:
         """The configuration that is shown, (n,)."""
         return self.thetas[self.frame]
+
+    def poses(self, scene: Scene, follow: Callable[[np.ndarray], None] | None = None) -> np.ndarray:
+        """Of all that moves in its scene, (N, k, 4, 4). follow(theta) moves what goes with the arm."""
+        found = []
+        for theta in self.thetas:
+            self.arm.theta = theta
+            if follow is not None:
+                follow(theta)
+            found.append(scene.pose())
+        return np.array(found)

@@ -212,17 +212,12 @@ class Panel(ipywidgets.VBox):
             Moves what goes with the arm (by its handle), so that the page has it for every frame.
         """
         with self._lock:
-            arm, poses = self.scene.robots[name], []
             self.motion = None
-            motion = Motion(arm, np.array(thetas, float))
-            for theta in motion.thetas:
-                arm.theta = theta
-                if follow is not None:
-                    follow(theta)
-                poses.append(self.scene.pose())
+            motion = Motion(self.scene.robots[name], np.array(thetas, float))
+            poses = motion.poses(self.scene, follow)
             with self._silence():
                 self.viewer.sync(self.scene)  # the paths that move, before what moves them
-                self.viewer.play(np.array(poses), fps, loop, texts, autoplay)
+                self.viewer.play(poses, fps, loop, texts, autoplay)
             self.motion = motion
             if not self._quiet:
                 self.refresh()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from coursekit import Robot, ik, robots, singularity, view
-from coursekit.view import predict
+from coursekit.view import questions
 
 ARMS = robots.all()
 every_arm = pytest.mark.parametrize("robot", ARMS.values(), ids=ARMS)
@@ -47,12 +47,12 @@ def by_one(robot, j, by):
 @every_arm
 def test_where_the_tool_will_be_and_what_wrong_guesses_look_like(robot):
     for number in range(6):
-        theta = predict.a_pose(robot, robot.home, number)
+        theta = questions.a_pose(robot, robot.home, number)
         step = np.where([kind == "revolute" for kind in robot.joint_types], np.pi / 12, 0.05)
         np.testing.assert_allclose(theta / step, np.round(theta / step), atol=1e-9)
-        j, by = predict.a_move(robot, theta, number)
+        j, by = questions.a_move(robot, theta, number)
         assert robot.within_limits(theta + by_one(robot, j, by))
-        question = predict.where_after(robot, theta, j, by, "where?")
+        question = questions.where_after(robot, theta, j, by, "where?")
         right, start = tool(robot, theta + by_one(robot, j, by)), tool(robot, theta)
         np.testing.assert_allclose(question.start, start, atol=1e-12)
         told, at = question.judge(right)
@@ -83,7 +83,7 @@ def test_plane_and_radius_of_a_guess():
     M = np.eye(4)
     M[:3, 3] = 0.6, 0, 0.4
     arm = Robot.from_axes([Z, Y], [(0, 0, 0), (0, 0, 0.4)], M, name="two hinges")
-    question = predict.where_after(arm, np.zeros(2), 0, np.pi / 2, "where?")
+    question = questions.where_after(arm, np.zeros(2), 0, np.pi / 2, "where?")
     assert question.judge(np.array([0, 0.6, 0.4]))[0].startswith("Right")
     said = {
         (0, 0.4, 0.4): "200 mm off: right plane and right angle, but the radius is too small by 200 mm.",
@@ -102,21 +102,21 @@ def test_plane_and_radius_of_a_guess():
     }
     for guess, words in said.items():
         assert question.judge(np.array(guess, float))[0] == words
-    question = predict.where_after(arm, np.array([np.pi / 2, 0]), 1, np.pi / 4, "where?")
+    question = questions.where_after(arm, np.array([np.pi / 2, 0]), 1, np.pi / 4, "where?")
     assert "before joints 1 to 1 carry it" in question.judge(np.array([0, 0.6, 0.4]))[0]
 
 
 def test_a_direction():
     others = {"that is the axis": Z}
     for signed in (True, False):
-        question = predict.which_way(np.zeros(3), 3 * X, others, "which way?", (), 1.0, signed)
+        question = questions.which_way(np.zeros(3), 3 * X, others, "which way?", (), 1.0, signed)
         assert abs(question.start @ X) < 1e-12, "where it starts tells nothing"
         assert question.judge(X + 0.05 * Y)[0] == "Right: 3 deg off."
         assert question.judge(0.5 * Z)[0] == "90 deg off: that is the axis."
         assert question.judge(X + Y)[0] == "45 deg off."
         assert question.judge(np.zeros(3))[0] == "Your arrow has no direction."
     assert question.judge(-X)[0] == "Right: 0 deg off."
-    signed = predict.which_way(np.zeros(3), 3 * X, others, "which way?", (), 1.0)
+    signed = questions.which_way(np.zeros(3), 3 * X, others, "which way?", (), 1.0)
     assert signed.judge(-X)[0] == "180 deg off: you point the other way."
 
 
@@ -150,10 +150,10 @@ def test_a_moved_joint_ends_the_question(opened):
     panel.set(predict=True)
     assert [held["path"] for held in panel.viewer.handles] == ["/ck/predict/guess"]
     panel.set(theta=panel.values["theta"] + 0.1)
-    assert panel.line.value.startswith(predict.MOVED)
+    assert panel.line.value.startswith(questions.MOVED)
     assert not panel.viewer.handles
     press(panel, "show_answer")
-    assert panel.line.value.startswith(predict.MOVED)
+    assert panel.line.value.startswith(questions.MOVED)
     press(panel, "next_question")
     assert panel.line.value.startswith("Predict: ")
 
@@ -246,4 +246,4 @@ def test_the_velocity_of_the_tool(robot, opened):
         assert "Right: 0 deg off." in answer(panel, at + v / np.linalg.norm(v))
         press(panel, "next_question")
     panel.set(theta=panel.values["theta"] + 0.01)
-    assert panel.line.value.startswith(predict.MOVED)
+    assert panel.line.value.startswith(questions.MOVED)

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
-from coursekit.view import mine, pointing, predict, sketch
+from coursekit.view import mine, pointing, prediction, sketch
 from coursekit.view.controls import Control, JointSliders, Slider, Sliders
 from coursekit.view.panel import Panel
+from coursekit.view.questions import Question
 from coursekit.view.scene import Scene
 
 
@@ -34,7 +35,7 @@ class Explorer:
         self.scene = Scene()
         self.joints: JointSliders | None = None  # those of theta, where there are some
         self.panel: Panel | None = None
-        self.prediction = predict.Prediction(self.scene)
+        self.prediction = prediction.Prediction(self.scene)
 
     @property
     def frame(self) -> int | None:
@@ -76,7 +77,7 @@ class Explorer:
     def begin(self, number: int) -> None:
         """Put the controls where question `number` begins."""
 
-    def question(self, values: dict[str, Any]) -> predict.Question | str:
+    def question(self, values: dict[str, Any]) -> Question | str:
         """What is asked at these values; in words why nothing is."""
         raise NotImplementedError
 
@@ -144,7 +145,7 @@ class Explorer:
             self.title,
             height,
             drivers=self.drivers,
-            computed=[*self.computed, predict.ROOT, *([sketch.ROOT] if self.mine.functions else [])],
+            computed=[*self.computed, prediction.ROOT, *([sketch.ROOT] if self.mine.functions else [])],
             formula=pointing.Formula(self.formula),
         )
         return self.panel

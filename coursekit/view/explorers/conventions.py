@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import dh, lie, robots
 from coursekit.kinematics.robot import Robot
-from coursekit.view import pointing, predict, text
+from coursekit.view import pointing, questions, text
 from coursekit.view.controls import Choice, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer
 from coursekit.view.panel import Panel
@@ -142,21 +142,21 @@ class _Conventions(Explorer):
     # -- where will the tool be?
 
     def begin(self, number):
-        self.joints.show(predict.a_pose(self.robot, self.robot.home, number))
+        self.joints.show(questions.a_pose(self.robot, self.robot.home, number))
 
     def question(self, values):
         robot, theta, number = self.robot, values["theta"], self.prediction.number
-        if not np.array_equal(theta, predict.a_pose(robot, robot.home, number)):
-            return predict.MOVED
-        move = predict.a_move(robot, theta, number)
+        if not np.array_equal(theta, questions.a_pose(robot, robot.home, number)):
+            return questions.MOVED
+        move = questions.a_move(robot, theta, number)
         if move is None:
-            return predict.NONE
+            return questions.NONE
         j, by = move
         end = theta + by * np.eye(robot.n)[j]
         goes = f"theta{j + 1} goes from {self.shown(j + 1, theta)} to {self.shown(j + 1, end)}"
         asked = f"{goes}. Where will the tool be? Drag the point there."
         play = lambda _right: self.panel.play(np.linspace(theta, end, 31))  # noqa: E731
-        return predict.where_after(robot, theta, j, by, asked, show=play)
+        return questions.where_after(robot, theta, j, by, asked, show=play)
 
     # -- the arm by the student's functions
 

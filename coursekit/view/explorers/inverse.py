@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import ik, robots, rotations
 from coursekit.kinematics.robot import Robot
-from coursekit.view import pointing, predict, text
+from coursekit.view import pointing, questions, text
 from coursekit.view.controls import Action, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.explorers.solver import Solver
@@ -114,7 +114,7 @@ class _Inverse(yours.Inverse, Explorer):
     def begin(self, number):
         """Another target: the solutions of this one are known."""
         start = _configuration(self.robot, self.solver.closed)
-        T = self.robot.fk(predict.a_pose(self.robot, start, number + 1))
+        T = self.robot.fk(questions.a_pose(self.robot, start, number + 1))
         self.pose.put([*T[:3, 3], *rotations.zyx(T[:3, :3])])
 
     def question(self, values):
@@ -124,7 +124,7 @@ class _Inverse(yours.Inverse, Explorer):
             return "Predict: not here: this arm has endlessly many solutions, and its elbow no place."
         rows, names = np.flatnonzero(self.ways.exists), np.array(self.ways.names)[self.ways.exists]
         asked = "the arm waits at home, and will go where the tool is at {d}."
-        return predict.which_elbow(
+        return questions.which_elbow(
             self.robot, self.robot.home, self.theta[rows], names, asked, lambda i: self.list.put(int(rows[i]))
         )
 

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import checks, ik, jacobians, robots, singularity
 from coursekit.kinematics.robot import Robot
-from coursekit.view import pointing, predict, text
+from coursekit.view import pointing, questions, text
 from coursekit.view.controls import Action, Slider, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.panel import Panel
@@ -180,12 +180,12 @@ class _Jacobians(yours.Jacobians, Explorer):
     def question(self, values):
         robot, theta = self.robot, values["theta"]
         if not np.array_equal(theta, self.asked_at):
-            return predict.MOVED
+            return questions.MOVED
         J = robot.jacobian_geometric(theta)
         speed = np.linalg.norm(J[3:], axis=0)
         fast = np.flatnonzero(speed > max(0.1 * speed.max(), 1e-6))
         if not len(fast):
-            return predict.NONE
+            return questions.NONE
         j = int(fast[self.prediction.number % len(fast)])
         w, v = J[:3, j], J[3:, j]
         others = {"that is the axis, and the tool moves across it": w}
@@ -193,7 +193,7 @@ class _Jacobians(yours.Jacobians, Explorer):
         others |= {f"as if joint {k + 1} moved": J[3:, k] for k in (j - 1, j + 1) if 0 <= k < robot.n}
         rate = "1 rad/s" if np.any(w) else "1 m/s"
         asked = f"joint {j + 1} alone moves, at {rate}. Which way does the tool go? Drag the arrow's tip."
-        return predict.which_way(
+        return questions.which_way(
             robot.fk(theta)[:3, 3], v, others, asked, (robot.name, j, *theta), self.scene.size
         )
 

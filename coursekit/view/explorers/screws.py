@@ -6,7 +6,7 @@ import numpy as np
 
 from coursekit.kinematics import axes, lie, robots
 from coursekit.kinematics.robot import Robot
-from coursekit.view import pointing, predict, text
+from coursekit.view import pointing, questions, text
 from coursekit.view.controls import Choice, Slider
 from coursekit.view.explorers import Explorer
 from coursekit.view.panel import Panel
@@ -187,25 +187,25 @@ class _Screws(Explorer):
     # -- where will the tool be?
 
     def begin(self, number):
-        move = predict.a_move(self.robot, np.zeros(self.robot.n), number, free=True)
+        move = questions.a_move(self.robot, np.zeros(self.robot.n), number, free=True)
         self.joint.put(self.joint.get() if move is None else move[0])
         self.turn.put(0.0)
 
     def question(self, values):
         robot, zero = self.robot, np.zeros(self.robot.n)
-        move = predict.a_move(robot, zero, self.prediction.number, free=True)
+        move = questions.a_move(robot, zero, self.prediction.number, free=True)
         if move is None:
-            return predict.NONE
+            return questions.NONE
         j, by = move
         if values["joint"] != j or self.turn.get():
-            return predict.MOVED
+            return questions.MOVED
         S = f"S{j + 1} = {text.row(robot.S[:, j])}"
         slides = f"slides by {text.millimetres(by, 0)} along" if self.slides(j) else ""
         goes = slides or f"turns by {text.degrees(by, 0)} about"
         asked = f"joint {j + 1} {goes} its screw {S}, all others rest at zero. Where will the tool be?"
         end = by * np.eye(robot.n)[j]
         play = lambda _right: self.panel.play(np.linspace(zero, end, 31))  # noqa: E731
-        return predict.where_after(robot, zero, j, by, f"{asked} Drag the point there.", show=play)
+        return questions.where_after(robot, zero, j, by, f"{asked} Drag the point there.", show=play)
 
     # -- the axes by the student's functions
 

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import singularity
 from coursekit.kinematics.robot import Robot
-from coursekit.view import predict
+from coursekit.view import questions
 from coursekit.view.figures import nb04
 
 
@@ -68,7 +68,7 @@ def singular_poses(robot: Robot, split: bool, number: int) -> Iterator[np.ndarra
     """Some, `split`: where a factor of det J is 0; each of another kind or from another start."""
     for k in range(number, number + 9):
         start = start_of(robot)
-        near = predict.a_pose(robot, start, k // 3 if split else k)
+        near = questions.a_pose(robot, start, k // 3 if split else k)
         start = np.where(hinges_of(robot), near, start)
         end = nearest(robot, start, singularity.NAMES[k % 3]) if split else weakest(robot, start)
         if end is not None:

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import axes, robots, singularity
 from coursekit.kinematics.robot import Robot
-from coursekit.view import pointing, predict, text
+from coursekit.view import pointing, questions, text
 from coursekit.view.controls import Action, Choice, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.explorers.singular import hinges_of, nearest, singular_poses, start_of, weakest
@@ -196,7 +196,7 @@ class _Singularities(yours.Singularities, Explorer):
             v = J[3:] + np.cross(J[:3].T, at).T
             right, others = force, {f"that way joint {k + 1} does move it": v[:, k] for k in free}
         asked += ". Point along it: drag the tip of the arrow; either way round is right."
-        return predict.which_way(at, right, others, asked, (robot.name, *theta), self.scene.size, False)
+        return questions.which_way(at, right, others, asked, (robot.name, *theta), self.scene.size, False)
 
     def secret(self):
         _show_loss(self.scene, self.robot, self.arm.theta, False, False)

@@ -1,12 +1,7 @@
-"""Predict in the picture: a question in words, a point to drag where the answer is, and how near it came.
+"""What a prediction asks, and what a wrong guess looks like.
 
-    class _Screws(Explorer):
-        predicts = True
-        def begin(self, number): ...          # puts the controls where question `number` begins
-        def question(self, values): ...       # a Question, or in words why there is none
-
-A wrong guess is compared with what it may have been meant as: each function below that makes a Question knows
-the mistakes that are common there, and computes where they would lead.
+A guess is compared with what it may have been meant as: each function that makes a Question knows the
+mistakes that are common there, and computes where they would lead.
 """
 
 from __future__ import annotations
@@ -22,14 +17,14 @@ from coursekit.kinematics.robot import Robot
 
 from . import text
 from .chain import chain
-from .controls import Action, Slider, Toggle
-from .scene import Scene
-from .target import PoseSliders
 
-ROOT = "/ck/predict"
 NEAR = 0.05  # of the arm's length: a point that is as near is right
 ALONG = np.radians(10)  # a direction that is as near is right
 TINY = 1e-6
+MOVED = "You moved the arm, and so see it for yourself: this question is over. Another one: next question."
+NONE = "Predict: no joint of this arm moves its tool far enough to ask for."
+HINGE = np.radians([60, -30, 45, -60, 30, -45, 90, -90])  # turns that are asked for
+SLIDE = np.array([0.2, -0.2, 0.1, -0.1, 0.3, -0.3, 0.05, -0.05])  # metres
 
 Told = tuple[str, np.ndarray]  # what is said of a guess, and the right point (3,) nearest to it
 
@@ -52,127 +47,6 @@ class Question:
     judge: Callable[[np.ndarray], Told]
     origin: np.ndarray | None = None
     show: Callable[[np.ndarray], None] | None = None
-
-
-class Guess(PoseSliders):
-    """Where the point is, (3,) in metres: moved by its handles in the picture, while it is `held`."""
-
-    path, letter, in_picture, held = f"{ROOT}/guess", "your guess", True, False
-
-    def __init__(self) -> None:
-        super().__init__("prediction", [Slider(f"guess {axis}", 0.0, unit="mm") for axis in "xyz"])
-
-    def fit(self, start: np.ndarray, reach: float) -> None:
-        for slider, x in zip(self.sliders, start, strict=True):
-            slider.fit(float(x), -reach, reach, "mm")
-
-
-class Prediction:
-    """The controls of a prediction, what is drawn of it and what is said."""
-
-    def __init__(self, scene: Scene) -> None:
-        self.scene, self.guess = scene, Guess()
-        self.number = 0  # of the question
-        self.question: Question | None = None  # that is open
-        self.told = ""  # once it is answered
-        self._begun: tuple | None = None
-        self._key: tuple | None = None  # of the question that was asked last
-        self._words = ""
-        self.buttons = [
-            Action("show_answer", "show answer", self.show),
-            Action("next_question", "next question", self.next),
-        ]
-        for button in self.buttons:
-            button.layout.display = "none"
-
-    def controls(self) -> list:
-        return [Toggle("predict", "predict first"), *self.buttons, self.guess]
-
-    def begins(self, on: bool, robot: Robot) -> bool:
-        """Whether another question begins now than at the last call."""
-        before, self._begun = self._begun, (self.number, robot) if on else None
-        if self._begun == before:
-            return False
-        self.told, self._key = "", None
-        return on
-
-    def ask(self, found: Question | str | None, resting: bool) -> None:
-        """Draw the question. found: None where predictions are off; resting: no motion runs."""
-        on = found is not None
-        for button in self.buttons:
-            button.layout.display = None if on else "none"
-        if self.told and (not resting or (isinstance(found, Question) and found.key == self._key)):
-            return  # the answer stays in sight
-        self.told = ""
-        self.question = found if isinstance(found, Question) else None
-        self.guess.held = self.question is not None
-        self._words = found if isinstance(found, str) else ""
-        if self.question is None:
-            self.scene.remove(ROOT)
-            return
-        if self.question.key != self._key:
-            self._key = self.question.key
-            self.scene.remove(ROOT)
-            self.guess.fit(self.question.start, 2 * self.scene.size)
-        self._draw(self._tip())
-
-    def _tip(self):
-        """The point; the tip of an arrow stays as far from its origin as it was at first."""
-        point, origin = self.guess.get(), self.question.origin
-        if origin is None:
-            return point
-        long = np.linalg.norm(self.question.start - origin)
-        way = point - origin
-        if np.linalg.norm(way) > TINY:
-            self.guess.put(origin + long / np.linalg.norm(way) * way)
-        return self.guess.get()
-
-    def _draw(self, point):
-        if self.guess.path not in self.scene.parts:
-            self.scene.point(self.guess.path, np.zeros(3), "your guess", "accent", 0.014 * self.scene.size)
-        T = np.eye(4)
-        T[:3, 3] = point
-        self.scene[self.guess.path].move(T)
-        if self.question.origin is not None:
-            self.scene.arrow(f"{ROOT}/arrow", self.question.origin, point - self.question.origin, "accent")
-
-    def words(self) -> list[str]:
-        """The question, or what is told of the guess."""
-        if self.question is None:
-            return [self._words] if self._words else []
-        at, origin = self.guess.get(), self.question.origin
-        if origin is None:
-            said = text.millimetres(at, 0)
-        else:
-            said = f"along {text.row((at - origin) / max(np.linalg.norm(at - origin), TINY), 2)}"
-        return [f"Predict: {self.question.words}", f"Your guess: {said}. {self.told}".rstrip()]
-
-    def show(self) -> None:
-        """Tell and draw the answer to the open question."""
-        if self.question is None or self.told:
-            return
-        guess, origin = self.guess.get(), self.question.origin
-        self.told, right = self.question.judge(guess)
-        self.guess.held = False
-        if origin is None:
-            gap = text.millimetres(np.linalg.norm(guess - right), 0)
-            self.scene.line(f"{ROOT}/gap", right, guess, "accent", gap, 0.003 * self.scene.size)
-        else:
-            self.scene.arrow(f"{ROOT}/right", origin, right - origin, "y", "right")
-        if self.question.show is not None:
-            self.question.show(right)
-
-    def next(self) -> None:
-        self.number += 1
-
-
-# --- questions ---
-
-
-MOVED = "You moved the arm, and so see it for yourself: this question is over. Another one: next question."
-NONE = "Predict: no joint of this arm moves its tool far enough to ask for."
-HINGE = np.radians([60, -30, 45, -60, 30, -45, 90, -90])  # turns that are asked for
-SLIDE = np.array([0.2, -0.2, 0.1, -0.1, 0.3, -0.3, 0.05, -0.05])  # metres
 
 
 def a_pose(robot: Robot, start: np.ndarray, number: int) -> np.ndarray:
