@@ -188,9 +188,10 @@ class Mine:
             except (ValueError, ArithmeticError, np.linalg.LinAlgError):
                 scene.remove(f"{ROOT}/{name}")
                 said = "what it returns cannot be drawn"
-            self._took[name] = self._seconds, time.monotonic()
             self.said[name] = said + self._changed
-            (self._slow.add if self._seconds > SLOW else self._slow.discard)(name)
+            if self._seconds:  # it was called; what is known costs nothing
+                self._took[name] = self._seconds, time.monotonic()
+                (self._slow.add if self._seconds > SLOW else self._slow.discard)(name)
         return waits
 
     def words(self, timed: bool = True) -> list[str]:

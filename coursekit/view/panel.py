@@ -363,7 +363,8 @@ class Panel(ipywidgets.VBox):
 
     def _draw_below(self, values, has_time):
         """Bands, plots and tables, once the arm is sent; a plot takes longest and may have to wait."""
-        for output in (*self.formula, *self._targets(), *self.below):
+        banded = [target for target in self._targets() if target.reach is not None]
+        for output in (*self.formula, *banded, *self.below):
             if hasattr(output, "refresh"):
                 self._stale = [other for other in self._stale if other is not output]
                 if hasattr(output, "has_time") and not has_time(output):

@@ -52,6 +52,11 @@ class Prediction:
         for button in self.buttons:
             button.layout.display = "none"
 
+    @property
+    def is_open(self) -> bool:
+        """Whether a question waits for its answer."""
+        return self.question is not None and not self.told
+
     def controls(self) -> list:
         return [Toggle("predict", "predict first"), *self.buttons, self.guess]
 

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
-from coursekit.view import mine, pointing, prediction, sketch
+from coursekit.view import mine, pointing, sketch
 from coursekit.view.controls import Control, JointSliders, Slider, Sliders
 from coursekit.view.panel import Panel
+from coursekit.view.prediction import ROOT, Prediction
 from coursekit.view.questions import Question
 from coursekit.view.scene import Scene
 
@@ -35,7 +36,7 @@ class Explorer:
         self.scene = Scene()
         self.joints: JointSliders | None = None  # those of theta, where there are some
         self.panel: Panel | None = None
-        self.prediction = prediction.Prediction(self.scene)
+        self.prediction: Prediction | None = None  # made with the panel, where there are questions
 
     @property
     def frame(self) -> int | None:
@@ -85,9 +86,14 @@ class Explorer:
         """Hide what would tell the answer: called after `update` as long as a question is open."""
 
     @property
+    def number(self) -> int:
+        """Of the question that is asked."""
+        return self.prediction.number if self.prediction else 0
+
+    @property
     def asking(self) -> bool:
         """Whether a question is open."""
-        return self.prediction.question is not None and not self.prediction.told
+        return self.prediction is not None and self.prediction.is_open
 
     def yours(self, name: str, values: dict[str, Any]) -> str:
         """Draw what the student's function of this name says for these values; the words for it.
@@ -107,29 +113,31 @@ class Explorer:
 
     def _show(self, values):
         self.update(values)
-        if self.predicts and self.panel:
-            self._ask(values["predict"])
+        if self.prediction and self.panel:
+            self._ask(self.prediction, values["predict"])
         live = self.panel is not None and self.panel.live
         waits = self.mine.look(lambda name: self.yours(name, values), self.scene, live)
         self.scene.said = self.mine.words(timed=False)
         if waits and self.panel:
             self.panel.late = True
 
-    def _ask(self, on):
-        if self.prediction.begins(on, self.robot):
+    def _ask(self, prediction, on):
+        if prediction.begins(on, self.robot):
             self.panel.end_motion()
-            self.begin(self.prediction.number)
+            self.begin(prediction.number)
             self.update(self.panel.values)
-        self.prediction.ask(self.question(self.panel.values) if on else None, self.frame is None)
+        prediction.ask(self.question(self.panel.values) if on else None, self.frame is None)
         if self.asking:
             self.secret()
 
     def _say(self, values):
-        return "\n".join([*self.prediction.words(), self.words(values), *self.mine.words()])
+        asked = self.prediction.words() if self.prediction else []
+        return "\n".join([*asked, self.words(values), *self.mine.words()])
 
     def open(self, height: int, theta: ArrayLike | None = None) -> Panel:
         """The panel, `height` pixels of picture, the arm at theta (n,) where that is given."""
-        asks = self.prediction.controls() if self.predicts else []
+        self.prediction = Prediction(self.scene) if self.predicts else None
+        asks = self.prediction.controls() if self.prediction else []
         controls, below = [*self.controls(), *self.more(), *asks], self.below()
         if theta is not None:
             self.start_at(np.asarray(theta, float))
@@ -145,7 +153,7 @@ class Explorer:
             self.title,
             height,
             drivers=self.drivers,
-            computed=[*self.computed, prediction.ROOT, *([sketch.ROOT] if self.mine.functions else [])],
+            computed=[*self.computed, ROOT, *([sketch.ROOT] if self.mine.functions else [])],
             formula=pointing.Formula(self.formula),
         )
         return self.panel

@@ -145,7 +145,7 @@ class _Conventions(Explorer):
         self.joints.show(questions.a_pose(self.robot, self.robot.home, number))
 
     def question(self, values):
-        robot, theta, number = self.robot, values["theta"], self.prediction.number
+        robot, theta, number = self.robot, values["theta"], self.number
         if not np.array_equal(theta, questions.a_pose(robot, robot.home, number)):
             return questions.MOVED
         move = questions.a_move(robot, theta, number)

@@ -186,7 +186,7 @@ class _Jacobians(yours.Jacobians, Explorer):
         fast = np.flatnonzero(speed > max(0.1 * speed.max(), 1e-6))
         if not len(fast):
             return questions.NONE
-        j = int(fast[self.prediction.number % len(fast)])
+        j = int(fast[self.number % len(fast)])
         w, v = J[:3, j], J[3:, j]
         others = {"that is the axis, and the tool moves across it": w}
         others["that is the lever, from the axis to the tool, and the tool moves across it"] = np.cross(v, w)

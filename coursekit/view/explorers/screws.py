@@ -193,7 +193,7 @@ class _Screws(Explorer):
 
     def question(self, values):
         robot, zero = self.robot, np.zeros(self.robot.n)
-        move = questions.a_move(robot, zero, self.prediction.number, free=True)
+        move = questions.a_move(robot, zero, self.number, free=True)
         if move is None:
             return questions.NONE
         j, by = move
