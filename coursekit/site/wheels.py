@@ -65,7 +65,7 @@ _SPARE = re.compile(
     r"| DejaVuSans(Mono)?-(Mono-)?BoldOblique | DejaVuSansMono-(Bold|Oblique) | STIXGeneralBol"
     r"| ^numpy/(f2py|_core/include)/ | ^IPython/sphinxext/ | ^PIL/_webp\. | dateutil-zoneinfo\.tar\.gz$"
     r"| ^jedi/third_party/(django-stubs|typeshed/(third_party|stdlib/2))/"
-    r"| ^pygments/lexers/(?!__init__|_mapping|python|special)"
+    r"| ^pygments/lexers/(?!__init__|_mapping|python|special|diff)"
     r"| ^meshcat/(?!__init__\.py|viewer/dist/main\.min\.js|viewer/LICENSE) | ^anywidget/nbextension/"
     r"| __pycache__ | (^|/)labextension/"
 )
