@@ -83,6 +83,11 @@ def chain(robot: Robot) -> Chain:
     return Chain(foot, up, joints, tool, size)
 
 
+def hinges(robot: Robot) -> np.ndarray:
+    """Which joints turn and do not slide: (n,) bool."""
+    return np.array([kind == "revolute" for kind in robot.joint_types])
+
+
 def _stretches(robot):
     """The joints with enter, leave and along, still without thickness."""
     slides, direction = [kind == "prismatic" for kind in robot.joint_types], axes.directions_of(robot.S)

@@ -16,7 +16,7 @@ from coursekit.kinematics import axes, lie
 from coursekit.kinematics.robot import Robot
 
 from . import text
-from .chain import chain
+from .chain import chain, hinges
 
 NEAR = 0.05  # of the arm's length: a point that is as near is right
 ALONG = np.radians(10)  # a direction that is as near is right
@@ -51,7 +51,7 @@ class Question:
 
 def a_pose(robot: Robot, start: np.ndarray, number: int) -> np.ndarray:
     """Joint values (n,) of question `number`, easy to say: near `start`, multiples of 15 deg or 50 mm."""
-    step = np.where(_turns(robot), np.pi / 12, 0.05)
+    step = np.where(hinges(robot), np.pi / 12, 0.05)
     away = np.random.default_rng(number).integers(-3, 4, robot.n) if number else 0
     low, high = np.ceil(robot.q_min / step - TINY), np.floor(robot.q_max / step + TINY)
     return np.where(low <= high, step * np.clip(np.round(start / step) + away, low, high), start)
@@ -63,7 +63,7 @@ def a_move(robot: Robot, theta: np.ndarray, number: int, free: bool = False) -> 
     Each joint in turn that moves the tool far enough to be seen, inside its limits or, of a hinge, `free`.
     """
     moves = []
-    for j, turns in enumerate(_turns(robot)):
+    for j, turns in enumerate(hinges(robot)):
         ways, low, high = np.roll(HINGE if turns else SLIDE, -number), robot.q_min[j], robot.q_max[j]
         inside = (theta[j] + ways >= low - TINY) & (theta[j] + ways <= high + TINY) | (free and turns)
         for by in ways[inside][:1]:
@@ -121,7 +121,7 @@ def which_elbow(
 
     Right is that of any of the solutions theta (k, n), each with its name; `choose` shows the nearest.
     """
-    joints, turns, size = chain(robot).joints, _turns(robot), chain(robot).size
+    joints, turns, size = chain(robot).joints, hinges(robot), chain(robot).size
     # it bends far from the tool, and far from joint 2 or, where that stands beside axis 1, from joint 1
     beside = joints[min(1, robot.n - 1)].enter - joints[0].enter
     first = int(robot.n > 2 and np.linalg.norm(axes.across(joints[0].along, beside)) < 0.1 * size)
@@ -248,7 +248,3 @@ def _carried(T, p):
 
 def _moved(S, q, p):
     return (lie.exp6(S * q) @ [*p, 1])[:3]
-
-
-def _turns(robot):
-    return np.array([kind == "revolute" for kind in robot.joint_types])

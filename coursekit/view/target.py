@@ -48,7 +48,7 @@ class PoseSliders(Sliders):
 
     def has_time(self, _values: dict) -> bool:
         """While a slider is dragged: are bands quick?"""
-        return self.reach is None or self._cost < QUICK
+        return self._cost < QUICK
 
 
 def reachable(reach: Reach, pose: ArrayLike, ends: ArrayLike) -> list[tuple[list, list]]:

@@ -15,10 +15,6 @@ def _turned(last, solutions):
     return solutions + TURN * np.round((last - solutions) / TURN)
 
 
-def _wrapped(angles):
-    return np.angle(np.exp(1j * angles))
-
-
 def branch_as_numbers(last, solutions):
     return solutions[_nearest(last, solutions)]
 

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from coursekit.kinematics import ik, robots, rotations
 from coursekit.kinematics.robot import Robot
 from coursekit.view import pointing, questions, text
+from coursekit.view.chain import hinges
 from coursekit.view.controls import Action, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.explorers.solver import Solver
@@ -287,6 +288,5 @@ def _configuration(robot, closed):
     """Where the explorer opens."""
     if closed:
         return np.resize(CONFIGURATION, robot.n)
-    turns = np.array([kind == "revolute" for kind in robot.joint_types])
-    away = np.resize(FROM_HOME, robot.n) * np.where(turns, 1, 0.2)
+    away = np.resize(FROM_HOME, robot.n) * np.where(hinges(robot), 1, 0.2)
     return np.clip(robot.home + away, robot.q_min, robot.q_max)

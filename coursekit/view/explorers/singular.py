@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from coursekit.kinematics import singularity
 from coursekit.kinematics.robot import Robot
 from coursekit.view import questions
+from coursekit.view.chain import hinges
 from coursekit.view.figures import nb04
 
 
@@ -69,19 +70,14 @@ def singular_poses(robot: Robot, split: bool, number: int) -> Iterator[np.ndarra
     for k in range(number, number + 9):
         start = start_of(robot)
         near = questions.a_pose(robot, start, k // 3 if split else k)
-        start = np.where(hinges_of(robot), near, start)
+        start = np.where(hinges(robot), near, start)
         end = nearest(robot, start, singularity.NAMES[k % 3]) if split else weakest(robot, start)
         if end is not None:
             yield end
-
-
-def hinges_of(robot: Robot) -> np.ndarray:
-    """(n,) bool: which joints turn."""
-    return np.array([kind == "revolute" for kind in robot.joint_types])
 
 
 def start_of(robot: Robot) -> np.ndarray:
     """A regular configuration near home, (n,); slides in the middle of their way."""
     low, high = nb04.ends_of(robot)
     turned = robot.home + np.resize(np.radians([0, 10, 20, 25, 45, 0]), robot.n)
-    return np.clip(np.where(hinges_of(robot), turned, (low + high) / 2), low, high)
+    return np.clip(np.where(hinges(robot), turned, (low + high) / 2), low, high)

@@ -9,9 +9,10 @@ from numpy.typing import ArrayLike
 from coursekit.kinematics import axes, robots, singularity
 from coursekit.kinematics.robot import Robot
 from coursekit.view import pointing, questions, text
+from coursekit.view.chain import hinges
 from coursekit.view.controls import Action, Choice, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
-from coursekit.view.explorers.singular import hinges_of, nearest, singular_poses, start_of, weakest
+from coursekit.view.explorers.singular import nearest, singular_poses, start_of, weakest
 from coursekit.view.figures import nb04
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
@@ -118,7 +119,7 @@ class _Singularities(yours.Singularities, Explorer):
         end = nearest(robot, start_of(robot), "elbow") if self.split else None
         self.arm = scene.robot(robot, start_of(robot) if end is None else end)
         origins = robot.link_frames(np.zeros(robot.n))[:, :3, 3]
-        places = np.where(hinges_of(robot)[:, None], axes.points_on(robot.S), origins)
+        places = np.where(hinges(robot)[:, None], axes.points_on(robot.S), origins)
         self.lines = []
         for k, (q, w) in enumerate(zip(places, axes.directions_of(robot.S), strict=True)):
             ends = axes.foot(origins[k], q, w) + np.outer([-0.6, 0.6], w) * scene.size
@@ -303,7 +304,7 @@ def _factor_of(k):
 
 
 def _shown_per_si(robot):
-    return np.where(hinges_of(robot), 180 / np.pi, 1000.0)
+    return np.where(hinges(robot), 180 / np.pi, 1000.0)
 
 
 def _one_is_lost(robot, theta):

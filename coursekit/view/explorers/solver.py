@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import ik
 from coursekit.kinematics.robot import Robot
+from coursekit.view.chain import hinges
 
 TRIES = 60  # random starts; for the arms of the catalogue they miss about one solution in a thousand
 MOST = 8  # shown of endlessly many
@@ -48,7 +49,7 @@ class Solver:
 
     def __init__(self, robot: Robot) -> None:
         self.robot = robot
-        self.turns = np.array([kind == "revolute" for kind in robot.joint_types])
+        self.turns = hinges(robot)
         self.why_not = ""
         try:
             ik.analytic(robot, robot.M)

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import singularity
 from coursekit.kinematics.robot import Robot
+from coursekit.view.chain import hinges
 from coursekit.view.figures import INK, axes_3d, limits_3d, palette, show
 
 if TYPE_CHECKING:
@@ -62,7 +63,7 @@ def has_factors(robot: Robot) -> bool:
 
 def ends_of(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
     """Limits of the joints (n,), (n,); where there is none, half a turn or 1 m either way."""
-    free = np.where([kind == "revolute" for kind in robot.joint_types], np.pi, 1.0)
+    free = np.where(hinges(robot), np.pi, 1.0)
     low, high = np.isfinite(robot.q_min), np.isfinite(robot.q_max)
     return np.where(low, robot.q_min, -free), np.where(high, robot.q_max, free)
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from coursekit.kinematics import lie, path, rotations
 from coursekit.view import text
+from coursekit.view.chain import hinges
 from coursekit.view.controls import Action, Control
 from coursekit.view.explorers import Explorer
 from coursekit.view.sketch import ZERO, Trouble, apart, gap, size
@@ -102,10 +103,10 @@ class Path(Explorer):
 
     def _next_on_branch(self, sketch, name):
         """The student's steps along this way, begun some turns away, among all ways within half a turn."""
-        hinges = np.array([kind == "revolute" for kind in self.robot.joint_types])
-        turns = 2 * np.pi * np.resize([0, 1, -2], self.robot.n) * hinges
+        turning = hinges(self.robot)
+        turns = 2 * np.pi * np.resize([0, 1, -2], self.robot.n) * turning
         right = self.q[self.branch, : self.reached[self.branch]] + turns
-        solutions = np.where(hinges, np.angle(np.exp(1j * self.q)), self.q).swapaxes(0, 1)
+        solutions = np.where(turning, np.angle(np.exp(1j * self.q)), self.q).swapaxes(0, 1)
         mine = right.copy()
         for i in range(1, len(mine)):
             mine[i] = self.mine.ask(name, mine[i - 1].copy(), solutions[i].copy())
