@@ -28,6 +28,8 @@ for variable, path in private_folders(PRIVATE).items():
     Path(path).mkdir(parents=True, exist_ok=True)
     os.environ[variable] = path
 
+DRIVE_A_BROWSER = ("tests/browser/", "tests/site/")
+
 # Notebooks among the tests are material (releases, submissions), not lessons to be run.
 collect_ignore_glob = ["*.ipynb"]
 
@@ -40,7 +42,9 @@ def pytest_xdist_make_scheduler(config, log):
     class Together(LoadFileScheduling):
         def _split_scope(self, nodeid):
             file = super()._split_scope(nodeid)
-            return "tests/browser" if file.startswith(("tests/browser/", "tests/site/")) else file
+            # the browser's Python runs under node there: a worker of its own halves the longest wait
+            alone = file == "tests/site/test_python.py"
+            return "tests/browser" if file.startswith(DRIVE_A_BROWSER) and not alone else file
 
     return Together(config, log)
 

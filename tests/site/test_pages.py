@@ -96,6 +96,9 @@ def test_licences_lie_beside_what_they_are_for(pages):
     for name in re.findall(r"^    (.+)$", listed, re.M):
         assert (pages / "licences" / name).stat().st_size > 50
     assert "three.js" in "".join(path.read_text() for path in (pages / "licences").glob("meshcat*"))
+    if (pages / "run").is_dir():
+        assert "Mozilla Public License 2.0" in listed
+        assert "https://github.com/pyodide/pyodide/tree/0.27.7" in listed
 
 
 def test_what_comes_without_a_licence_is_refused(tmp_path):
