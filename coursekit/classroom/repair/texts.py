@@ -84,7 +84,7 @@ def _lines(lines: list[int], body: int) -> str:
     lines = [line for line in lines if line >= min(body, 2)]
     if not lines:
         return ""
-    return f"line {lines[0]}" if len(lines) == 1 else f"lines {lines[0]} and {lines[1]}"
+    return f"line {lines[0]}" if len(lines) == 1 else f"line {lines[0]} or {lines[1]}"
 
 
 def _what(kinds: list[tuple[str, str]]) -> str:
