@@ -37,6 +37,7 @@ _OF_MATHJAX = (
     "jax/output/HTML-CSS",
     "fonts/HTML-CSS/STIX-Web/woff",
 )
+_COLUMNS = re.compile(r"\S {2,}\S")  # a line of a table or a matrix
 _WAITS = "This cell uses what you write above it: its result appears when the exercises are solved."
 
 
@@ -151,7 +152,7 @@ class _Body:
 
     def output(self, place: str, number: int, output: NotebookNode) -> str:
         if output.output_type == "stream":
-            return f'<pre class="output">{ansi2html(output.text)}</pre>'
+            return f'<pre class="output">{_printed(output.text)}</pre>'
         data = output.get("data", {})
         line = data.get("text/plain", "")
         if "image/png" in data:
@@ -161,7 +162,7 @@ class _Body:
             return f'<div class="formula">{html.escape(data["text/latex"], quote=False)}</div>'
         if "text/html" in data:
             return f'<div class="output">{data["text/html"]}</div>'
-        return f'<pre class="output">{html.escape(line)}</pre>'
+        return f'<pre class="output">{_printed(line)}</pre>'
 
     def picture(self, name: str, png: str, alt: str, line: str) -> str:
         """A figure, or in its place an explorer that moves; the picture of that one is for paper."""
@@ -176,6 +177,15 @@ class _Body:
         frame = f'<iframe data-src="{explorer}" title="{html.escape(line.split(":")[0])}"></iframe>'
         hint = f"<figcaption>{reopened.HINT}</figcaption>"
         return f'<figure class="explorer">{frame}{picture}{hint}</figure>'
+
+
+def _printed(text: str) -> str:
+    """What a cell prints: words may be wrapped where the page is narrow, columns of numbers must not."""
+    lines = text.split("\n")
+    return "\n".join(
+        f'<span class="columns">{ansi2html(line)}</span>' if _COLUMNS.search(line) else ansi2html(line)
+        for line in lines
+    )
 
 
 def markdown(source: str) -> str:

@@ -175,6 +175,11 @@ def test_formulas_are_set_and_nothing_is_asked_of_another_host(browser, served):
         assert (visit.asked, visit.errors) == ([], [])
 
 
+# What must be scrolled sideways to be read, but for columns of numbers.
+SCROLLS = """(which) => [...document.querySelectorAll(which)]
+  .filter((box) => box.scrollWidth > box.clientWidth && !box.querySelector(".columns")).map((box) => box.innerText)"""
+
+
 @pytest.mark.browser
 @pytest.mark.parametrize("name", ["index.html", "01_dh_vs_poe.html", "05_jacobian_methods.html"])
 def test_on_a_phone_nothing_is_wider_than_the_screen(browser, served, name):
@@ -183,6 +188,9 @@ def test_on_a_phone_nothing_is_wider_than_the_screen(browser, served, name):
         page.wait_for_function("() => document.querySelectorAll('.MathJax').length > 1", timeout=60_000)
         page.wait_for_timeout(1000)
         assert page.evaluate("document.documentElement.scrollWidth") <= 412
+        assert page.evaluate(SCROLLS, ".output") == []  # printed sentences are wrapped
+        page.set_viewport_size({"width": 1366, "height": 768})
+        assert page.evaluate(SCROLLS, ".highlight pre, .output") == []  # and code is in sight
 
 
 @pytest.mark.browser
