@@ -177,7 +177,8 @@ def test_formulas_are_set_and_nothing_is_asked_of_another_host(browser, served):
 
 # What must be scrolled sideways to be read, but for columns of numbers.
 SCROLLS = """(which) => [...document.querySelectorAll(which)]
-  .filter((box) => box.scrollWidth > box.clientWidth && !box.querySelector(".columns")).map((box) => box.innerText)"""
+  .filter((box) => box.scrollWidth > box.clientWidth && !box.querySelector(".columns"))
+  .map((box) => box.innerText)"""
 
 
 @pytest.mark.browser
