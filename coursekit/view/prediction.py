@@ -71,6 +71,8 @@ class Prediction:
     def ask(self, found: Question | str | None, resting: bool) -> None:
         """Draw the question. found: None where predictions are off; resting: no motion runs."""
         on = found is not None
+        if not on:
+            self.scene.see(np.empty((0, 3)))
         for button in self.buttons:
             button.layout.display = None if on else "none"
         if self.told and (not resting or (isinstance(found, Question) and found.key == self._key)):
@@ -85,6 +87,7 @@ class Prediction:
         if self.question.key != self._key:
             self._key = self.question.key
             self.scene.remove(ROOT)
+            self.scene.see(self.question.seen)
             self.guess.fit(self.question.start, 2 * self.scene.size)
         self._draw(self._tip())
 

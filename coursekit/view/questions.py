@@ -37,6 +37,7 @@ class Question:
     key     what it depends on: another key is another question
     start   (3,) where the point stands at first
     judge   guess (3,) -> Told
+    seen    (k, 3) what has to be in the picture: right and wrong places alike
     origin  (3,) where an arrow begins that the point is the tip of; None: the point itself is asked for
     show    called with the right point: moves the arm there
     """
@@ -45,6 +46,7 @@ class Question:
     key: tuple
     start: np.ndarray
     judge: Callable[[np.ndarray], Told]
+    seen: np.ndarray
     origin: np.ndarray | None = None
     show: Callable[[np.ndarray], None] | None = None
 
@@ -106,7 +108,8 @@ def where_after(robot: Robot, theta: np.ndarray, j: int, by: float, words: str, 
         parts = (_along_line if slides else _about_axis)(S[:, j], by, start, guess, tol)
         return _near(guess, right, others, tol, list(parts)), right
 
-    return Question(words, (robot.name, j, by, *theta), start, judge, **more)
+    seen = np.array([start, right, _moved(S[:, j], -by, start)])
+    return Question(words, (robot.name, j, by, *theta), start, judge, seen, **more)
 
 
 def which_elbow(
@@ -162,6 +165,7 @@ def which_elbow(
         (robot.name, *key),
         start,
         judge,
+        np.array([start, *places]),
         show=lambda right: choose(int(np.linalg.norm(places - right, axis=1).argmin())),
     )
 
@@ -199,7 +203,8 @@ def which_way(
         meant = name and kinds[name] <= ALONG and kinds[name] < off
         return (f"{told}: {name}." if meant else f"{told}."), tip
 
-    return Question(words, key, start, judge, origin)
+    seen = origin + 0.2 * size * np.vstack([np.eye(3), -np.eye(3)])
+    return Question(words, key, start, judge, seen, origin)
 
 
 def _near(guess, right, others, tol, parts):

@@ -54,6 +54,7 @@ class Scene:
         self.pointers: dict[str, tuple[str, ...]] = {}  # path -> words of a formula, see pointing.py
         self.lettering: dict[str, list[dict]] = {}
         self._low, self._high = np.array([-0.4, -0.4, 0]) * size, np.array([0.4, 0.4, 0.8]) * size
+        self._seen = np.empty((0, 3))
         self.size, self.floor = float(size), float(floor)
 
     def __getitem__(self, path: str) -> Drawing:
@@ -282,7 +283,14 @@ class Scene:
     @property
     def views(self) -> dict[str, dict[str, list[float]]]:
         """Named camera stands: {"home", "top", "side", "front"} -> {"position", "target"}."""
-        return camera.views(self._low, self._high, self.size)
+        margin = 0.1 * self.size
+        low, high = [self._low, *self._seen - margin], [self._high, *self._seen + margin]
+        return camera.views(np.min(low, axis=0), np.max(high, axis=0), self.size)
+
+    def see(self, points: np.ndarray) -> None:
+        """Step back until these points (k, 3) are in the picture, too; with none: to where the camera was."""
+        seen = np.vstack([self._seen, points]) if len(points) else points
+        self._seen = np.array([seen.min(axis=0), seen.max(axis=0)]) if len(seen) else seen
 
     def text(self) -> str:
         """One line for those who cannot see the picture.

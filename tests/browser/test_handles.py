@@ -119,8 +119,28 @@ DRAWN = """(coarseness) => {
 }"""
 
 
+# How many pixels are painted while a full frame follows quick ones, each time before it is there.
+PAINTED = """async () => {
+    const { stage } = document.querySelector(".ck-viewer").coursekit;
+    const { drawn, domElement } = stage.renderer, seen = [];
+    stage.renderer.drawn = () => {
+      const { data } = domElement.getContext("2d").getImageData(0, 0, domElement.width, domElement.height);
+      seen.push(data.filter((value, i) => i % 4 === 3 && value > 0).length);
+      return drawn();
+    };
+    for (let k = 0; k < 3; k += 1) {
+      stage.moved();
+      await new Promise(requestAnimationFrame);
+    }
+    await new Promise((done) => setTimeout(done, 1500));
+    stage.renderer.drawn = drawn;
+    return seen;
+}"""
+
+
 def test_ghosts_have_fewer_triangles_in_quick_frames(opened):
     explorer = opened("inverse", robots.kuka_kr6(), "view.explore_inverse()")
+    assert all(explorer.page.evaluate(PAINTED)), "the picture does not vanish when it is drawn sharply again"
     quick, quick_layers = explorer.page.evaluate(DRAWN, 0.35)
     full, full_layers = explorer.page.evaluate(DRAWN, 1)
     assert quick < full / 2

@@ -30,6 +30,10 @@ def test_where_the_tool_will_be(opened):
     assert handle(explorer, "move the tool").count() == 0, "it would try what is to be predicted"
     before = explorer.values("prediction")
     theta = explorer.values()
+    drag(explorer, centre(explorer, "move your guess along its y"), (20, -8))
+    moved = explorer.values("prediction") - before
+    assert moved[1] > 0.05 and np.abs(moved[[0, 2]]).max() < 1e-9
+    before = before + moved
     handle(explorer, "move your guess along its y").focus()
     explorer.page.keyboard.press("ArrowRight")
     explorer.settle()

@@ -5,6 +5,8 @@ import pytest
 
 from coursekit import Robot, ik, robots, singularity, view
 from coursekit.view import questions
+from coursekit.view.camera import ASPECT
+from coursekit.view.picture import _Eye
 
 ARMS = robots.all()
 every_arm = pytest.mark.parametrize("robot", ARMS.values(), ids=ARMS)
@@ -34,6 +36,13 @@ def answer(panel, guess):
     panel.set(prediction=guess)
     press(panel, "show_answer")
     return panel.line.value.splitlines()[1]
+
+
+def in_the_picture(panel, *points):
+    """Whether these points (3,) are seen from where the camera stands at first, with room for a handle."""
+    eye = _Eye(panel.viewer.camera, 430 * ASPECT, 430)
+    pixels = eye.project(np.array(points))[0]
+    return np.all((pixels > 15) & (pixels < [430 * ASPECT - 15, 415]))
 
 
 def tool(robot, theta):
@@ -124,9 +133,10 @@ def test_a_direction():
 @pytest.mark.parametrize("explore", [view.explore, view.explore_screws], ids=["conventions", "screws"])
 def test_the_explorer_of_a_move(robot, explore, opened):
     panel = opened(explore, robot)
+    begun = panel.viewer.camera
     panel.set(predict=True)
     arm = panel.scene.robots["robot"]
-    for _ in range(2):
+    for _ in range(3):
         first = panel.line.value.splitlines()[0]
         assert first.startswith("Predict: ") and "Where will the tool be?" in first
         before = arm.theta
@@ -136,12 +146,14 @@ def test_the_explorer_of_a_move(robot, explore, opened):
         np.testing.assert_array_equal(arm.theta, before)
         explorer = panel._update.__self__
         right = explorer.prediction.question.judge(np.zeros(3))[1]
+        assert in_the_picture(panel, tool(robot, before), right)
         assert "Right: 0 mm off." in answer(panel, right)
         np.testing.assert_allclose(tool(robot, panel.motion.thetas[-1]), right, atol=1e-9)
         assert not panel.viewer.handles, "what is answered is not moved"
         press(panel, "next_question")
         assert panel.motion is None
     panel.set(predict=False)
+    assert panel.viewer.camera == begun
     assert not panel.line.value.startswith("Predict") and "/ck/predict/guess" not in panel.scene.parts
 
 
@@ -181,9 +193,12 @@ def test_the_elbow(robot, opened):
         return
     np.testing.assert_array_equal(panel.scene.robots["robot"].theta, robot.home)
     assert list(panel.scene.robots) == ["robot"] and not panel._controls["solution"].figures
+    assert panel._controls["solution"].rows == [], "they would tell the joint angles"
     right = explorer.prediction.question.judge(np.array([0.2, 0.3, 0.4]))[1]
+    assert in_the_picture(panel, explorer.prediction.question.start, right)
     told = answer(panel, right)
     assert "You hit " in told and ": 0 mm off." in told
+    assert panel._controls["solution"].rows
     theta = panel.scene.robots["robot"].theta
     np.testing.assert_allclose(tool(robot, theta), panel.values["pose"][:3], atol=1e-8)
     pose = panel.values["pose"]

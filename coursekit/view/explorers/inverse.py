@@ -235,6 +235,8 @@ class _Inverse(yours.Inverse, Explorer):
 
     def table(self, values):
         """Header and rows: branch, joint values, whether the limits are kept, or why not."""
+        if self.asking:
+            return [], []
         per = np.where(self.solver.turns, 180 / np.pi, 1000.0)
         units = ["deg" if turns else "mm" for turns in self.solver.turns]
         header = ["branch" if self.solver.closed else "solution"]

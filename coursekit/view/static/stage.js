@@ -74,7 +74,7 @@ function canvasRenderer(MeshCat) {
   const context = canvas.getContext("2d");
   const inUse = new MeshCat.THREE.Vector2();
   const drawCoarsely = coarsePicture(MeshCat.THREE, context);
-  let width = 1, height = 1, ratio = 1;
+  let width = 1, height = 1, ratio = 1, w = 1, h = 1; // w, h: pixels of the frame that is drawn
   const facade = {
     domElement: canvas,
     coarseness: 1, // below 1: fewer pixels while something moves
@@ -86,11 +86,8 @@ function canvasRenderer(MeshCat) {
       [width, height] = [w, h];
       canvas.style.width = `${w}px`;
       canvas.style.height = `${h}px`;
-      facade.fitCanvas();
     },
-    fitCanvas() {
-      const w = Math.max(1, Math.round(width * ratio * facade.coarseness));
-      const h = Math.max(1, Math.round(height * ratio * facade.coarseness));
+    fitCanvas() { // which empties it: not before there is something to show
       if (canvas.width !== w) canvas.width = w;
       if (canvas.height !== h) canvas.height = h;
     },
@@ -105,7 +102,7 @@ function canvasRenderer(MeshCat) {
     },
     render(scene, camera) {
       const gl = sharedRenderer(MeshCat);
-      const w = canvas.width, h = canvas.height;
+      [w, h] = [width, height].map((side) => Math.max(1, Math.round(side * ratio * facade.coarseness)));
       camera.layers.set(0);
       camera.layers.enable(facade.coarseness < 1 ? QUICK_LAYER : FULL_LAYER);
       gl.shadowMap.enabled = facade.shadows;
@@ -113,7 +110,10 @@ function canvasRenderer(MeshCat) {
       const shadowNow = facade.shadows && facade.shadowsStale && facade.coarseness === 1;
       gl.shadowMap.needsUpdate = shadowNow;
       if (shadowNow) facade.shadowsStale = false;
-      if (facade.coarseness < 1) return drawCoarsely(gl, scene, camera);
+      if (facade.coarseness < 1) {
+        facade.fitCanvas();
+        return drawCoarsely(gl, scene, camera);
+      }
       gl.getSize(inUse);
       if (inUse.x < w || inUse.y < h) gl.setSize(Math.max(w, inUse.x), Math.max(h, inUse.y), false);
       gl.getSize(inUse);
@@ -123,7 +123,8 @@ function canvasRenderer(MeshCat) {
       gl.render(scene, camera);
     },
     show() { // a full frame
-      const { domElement } = sharedRenderer(MeshCat), w = canvas.width, h = canvas.height;
+      const { domElement } = sharedRenderer(MeshCat);
+      facade.fitCanvas();
       context.clearRect(0, 0, w, h);
       context.drawImage(domElement, 0, domElement.height - h, w, h, 0, 0, w, h);
     },
@@ -258,11 +259,7 @@ function makeStage(MeshCat, pane, quality) {
     for (const act of stage.beforeFrame) act(now);
     // a cell out of sight is taken out of the page: it gets the pose, and is drawn when it comes back
     if (viewer.needs_render && pane.isConnected && !shared.contextLost && !isDark()) {
-      const wanted = levelNow();
-      if (renderer.coarseness !== wanted) {
-        renderer.coarseness = wanted;
-        renderer.fitCanvas();
-      }
+      const wanted = (renderer.coarseness = levelNow());
       const begun = performance.now();
       viewer.render();
       if (wanted === 1) {
