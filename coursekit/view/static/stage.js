@@ -259,7 +259,8 @@ function makeStage(MeshCat, pane, quality) {
     for (const act of stage.beforeFrame) act(now);
     // a cell out of sight is taken out of the page: it gets the pose, and is drawn when it comes back
     if (viewer.needs_render && pane.isConnected && !shared.contextLost && !isDark()) {
-      const wanted = (renderer.coarseness = levelNow());
+      const wanted = levelNow();
+      renderer.coarseness = wanted;
       const begun = performance.now();
       viewer.render();
       if (wanted === 1) {
