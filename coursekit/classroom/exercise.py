@@ -230,7 +230,9 @@ def _numbers(value) -> np.ndarray:
             "the answer is complex, real numbers are expected: a root of a negative number, or np.linalg.eig?"
         )
     if array.dtype.kind not in "biuf":
-        raise Misfit(f"the answer has dtype {array.dtype}; numbers are expected")
+        loose = array.dtype == object and array.size and all(hasattr(x, "__float__") for x in array.flat)
+        how = ": np.array(answer, float) makes them of fractions and of sympy's numbers" if loose else ""
+        raise Misfit(f"the answer has dtype {array.dtype}; numbers are expected{how}")
     return array.astype(float)
 
 

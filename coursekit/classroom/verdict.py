@@ -97,10 +97,13 @@ def verdict(
     allowed : names of the library that it may call, as in `ALLOW` of the unit
     """
     answers = [attempt.parts for attempt in attempts]
-    if found := _cannot_be_judged(exercise, examples, attempts):
+    found = _cannot_be_judged(exercise, examples, attempts)
+    good = [not found and example.agrees(parts) for example, parts in zip(examples, answers, strict=True)]
+    if function and not all(good) and (text := _another_word(exercise, function, examples)):
+        return Verdict("named", text, step="word", example=good.index(False))
+    if found:
         hint = None if found.step == "changed" else _named(exercise, examples, answers)
         return Verdict("named", hint.text, step=hint.key, example=found.example) if hint else found
-    good = [example.agrees(parts) for example, parts in zip(examples, answers, strict=True)]
     if all(good):
         return _right(examples, attempts, allowed)
     first = good.index(False)
@@ -254,6 +257,20 @@ def _ignored(exercise: Exercise, function: Callable) -> str:
             return f"it does not use its argument `{wanted}`"
         if uses[0].startswith("STORE"):
             return f"it gives `{wanted}` a value of its own before it looks at the one that comes"
+    return ""
+
+
+def _another_word(exercise: Exercise, function: Callable, examples: list[Example]) -> str:
+    """ "kind is "revolute" or "prismatic", ...": the code asks for words that never come, as "R" and "P"."""
+    code = getattr(function, "__code__", None)
+    if not isinstance(code, CodeType):
+        return ""
+    mine = [c for c in code.co_consts if isinstance(c, str) and c and c != function.__doc__]
+    for k, name in enumerate(exercise.arguments):
+        words = list(dict.fromkeys(str(e.arguments[k]) for e in examples if isinstance(e.arguments[k], str)))
+        if words and mine and not any(part in word for part in mine for word in words):
+            known = " or ".join(f'"{word}"' for word in words)
+            return f'`{name}` is {known}, letter for letter: "{mine[0]}" in your code is neither'
     return ""
 
 

@@ -216,6 +216,25 @@ def five_slow_demonstrations(notebook):
     return {**notebook, "cells": [*slow, *notebook["cells"]]}
 
 
+def cell_of_fk(notebook: dict, **changed) -> dict:
+    """The cell that defines fk is another one."""
+    notebook = copy.deepcopy(notebook)
+    notebook["cells"][position(notebook, "def fk")].update(changed)
+    return notebook
+
+
+@kind(NO_FK, "the cell with `def fk` is no Python: line 1, invalid syntax")
+def a_conflict_of_git(notebook):
+    source = notebook["cells"][position(notebook, "def fk")]["source"]
+    return cell_of_fk(notebook, source=f"<<<<<<< HEAD\n{source}\n=======\n{source}\n>>>>>>> theirs")
+
+
+@kind(NO_FK, "is no code cell")
+def a_cell_that_became_text(notebook):
+    """One press of M."""
+    return cell_of_fk(notebook, cell_type="markdown")
+
+
 # ---- not a notebook, or nothing in it
 
 

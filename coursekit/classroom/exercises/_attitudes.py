@@ -81,10 +81,10 @@ def quarter_turn(rng):
     return ([[c, -s, 0], [s, c, 0], [0, 0, 1]],)
 
 
-def away_from_lock(rng, quarters=(-2, -1, 0, 1)):
-    """A rotation whose pitch is at least 0.2 rad from a right angle."""
+def away_from_lock(rng, quarters=(-2, -1, 0, 1), pitch=(0.2, 1.3)):
+    """A rotation whose pitch, up or down, lies between these two: it is never a right angle."""
     yaw, roll = np.pi / 2 * rng.choice(quarters, 2) + rng.uniform(0.2, 1.3, 2)
-    pitch = rng.choice([-1, 1]) * rng.uniform(0.2, 1.3)
+    pitch = rng.choice([-1, 1]) * rng.uniform(*pitch)
     (cz, sz), (cy, sy), (cx, sx) = ((np.cos(a), np.sin(a)) for a in (yaw, pitch, roll))
     turns = [[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]], [[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]]
     return (np.linalg.multi_dot([*turns, [[1, 0, 0], [0, cx, -sx], [0, sx, cx]]]),)

@@ -36,6 +36,7 @@ ROWS = (
     Edge("where alpha is 180 deg", row_with(alpha=np.pi)),
     Edge("where theta is 180 deg", row_with(theta=np.pi)),
     Edge("where a is negative", row_with(a=-0.3)),
+    Edge("where alpha and d are tiny", row_with(alpha=2e-4, d=-3e-4)),
     Edge("for whole numbers", lambda rng: (1, 2, -1, 3)),
 )
 

@@ -252,6 +252,14 @@ def singular_search(rng):
     return J, here, there
 
 
+def search_near_singular(rng):
+    """One motion costs the joints 500 times as much as another: the step is long, but it leads there."""
+    J, here, there = search(rng)
+    U, s, Vt = np.linalg.svd(J)
+    s[-1] = 2e-3 * s[0]
+    return U * s @ Vt, here, there
+
+
 def whole_search(rng):
     J = np.diag(rng.integers(1, 4, 6)) + np.eye(6, k=1, dtype=int)
     here = whole_pose(turn(0, np.pi / 2), rng.integers(1, 5, 3))

@@ -37,6 +37,13 @@ def _wrapped(angles):
     return np.remainder(angles + np.pi, TURN) - np.pi
 
 
+def _balanced(rng):
+    """In the wrong solutions some joints are as far ahead as others are behind: added up, that is nothing."""
+    last = rng.uniform(-1.5, 1.5, 4)
+    others = last + rng.uniform(0.5, 1.4, (3, 1)) * rng.permutation([1, 1, -1, -1])
+    return last, rng.permutation([*others, last + rng.uniform(0.05, 0.12, 4)])
+
+
 def _whole(rng):
     """Whole numbers; 3 goes on to 2 pi - 3."""
     return [3, 0, -2], rng.permutation([[-3, 0, -2], [3, 2, 0], [1, 0, -2]])
@@ -84,6 +91,7 @@ NEXT_ON_BRANCH = Exercise(
         Edge("for a single solution", _drawn(k=1)),
         Edge("for one joint", _drawn(n=1, k=3, turns=2)),
         Edge("for as many solutions as joints", _drawn(5, 5)),
+        Edge("where the differences of a wrong solution cancel", _balanced),
         Edge("for whole numbers", _whole),
     ),
     residual=_missed,

@@ -97,6 +97,20 @@ def one_that_hardly_moves(rng):
     return q, points, v_max
 
 
+def one_that_rests(rng):
+    """Joint 2 stands still all along, also in the step that sets the speed."""
+    q, points, v_max = motion(rng, n=3)
+    q[:, 1] = 0.7
+    return q, points, v_max
+
+
+def a_step_of_more_than_half_a_turn(rng):
+    """Few points: in one step joint 1 turns by four rad, and no number of turns is taken off."""
+    q, points, v_max = motion(rng, n=3)
+    q[4:, 0] += 4.0
+    return q, points, v_max
+
+
 def equal_steps(rng):
     q, _, v_max = motion(rng, n=3)
     return q, np.cumsum(0.02 * directions(rng, len(q)), axis=0), v_max

@@ -389,6 +389,7 @@ EXERCISES = [
                 "row_alone", "N_i alone is seen from frame i - 1: axis i needs the whole product N_1 ... N_i"
             ),
             Hint("standard", "these are modified rows: N_i comes from mdh_transform, not from dh_transform"),
+            Hint("point_as_v", "v is not the point on the axis: v = -w x q"),
             Hint("one_side", "[z] changes its frame as T [z] T^-1: the factor on its right is missing"),
             Hint("no_base", "these screws are in frame 0: the base takes them to the space frame"),
             Hint("no_offset", "the table's own offsets belong to the frames at theta = 0"),

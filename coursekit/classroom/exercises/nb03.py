@@ -245,6 +245,7 @@ EXERCISES = [
             Edge("for seven joints", lambda rng: _draw.search(rng, 7), 2),
             Edge("for two joints", lambda rng: _draw.search(rng, 2)),
             Edge("where J_b is singular", _draw.singular_search),
+            Edge("where J_b is nearly singular", _draw.search_near_singular),
             Edge("where the target is only shifted", lambda rng: _draw.search(rng, turned=False)),
             Edge("where the target is only turned", lambda rng: _draw.search(rng, shifted=False)),
             Edge("for whole numbers", _draw.whole_search),

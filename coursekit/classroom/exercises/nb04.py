@@ -144,12 +144,16 @@ def _one_row_zero(rng):
     return (J,)
 
 
-def _stretched(rng):
+def _stretched(theta4):
     """The KR6 with its elbow stretched, as in the notebook."""
-    from coursekit import robots
 
-    elbow = np.arctan2(KR6[3], KR6[4])
-    return (robots.kuka_kr6().jacobian_body([0.3, -0.7, elbow, 0.5, 0.8, 0.2]),)
+    def draw(rng):
+        from coursekit import robots
+
+        elbow = np.arctan2(KR6[3], KR6[4])
+        return (robots.kuka_kr6().jacobian_body([0.3, -0.7, elbow, theta4, 0.8, 0.2]),)
+
+    return draw
 
 
 def _whole_singular(rng):
@@ -320,6 +324,7 @@ EXERCISES = [
                 "np.linalg.norm(J) is the root of all squares added, more than the largest singular value",
             ),
             Hint("lost", "you counted the motions that are lost"),
+            Hint("added", "you added singular values: a rank is a number of them"),
         ),
     ),
     Exercise(
@@ -331,7 +336,8 @@ EXERCISES = [
         compare="up_to_sign",
         samples=3,
         edges=(
-            Edge("for the KR6 with its elbow stretched", _stretched),
+            Edge("for the KR6 with its elbow stretched", _stretched(0.5)),
+            Edge("for the KR6 stretched, with axis 5 parallel to axes 2 and 3", _stretched(0.0)),
             Edge("where a row of J is zero", _one_row_zero, 2),
             Edge("for whole numbers", _whole_singular),
         ),

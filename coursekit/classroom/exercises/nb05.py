@@ -26,6 +26,7 @@ ALLOW = (
     "rotations.rotz",
     "robot.Robot.fk",
     "robot.Robot.jacobian_body",
+    "robot.Robot.n",
 )
 
 

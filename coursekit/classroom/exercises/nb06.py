@@ -170,6 +170,7 @@ EXERCISES = [
             Edge(
                 "where R[0, 0] and R[2, 2] are negative", lambda rng: attitudes.away_from_lock(rng, (-2, 1))
             ),
+            Edge("where the pitch is steep", lambda rng: attitudes.away_from_lock(rng, pitch=(1.52, 1.54))),
             Edge("for no turn at all", lambda rng: (np.eye(3, dtype=int),)),
             Edge("for a quarter turn about z", attitudes.quarter_turn),
             Edge("for a half turn about an axis", attitudes.half_turn_about(0)),
@@ -257,6 +258,8 @@ EXERCISES = [
             Edge("for a single step", lambda rng: draws.motion(rng, 2)),
             Edge("for one joint", lambda rng: draws.motion(rng, 5, 1)),
             Edge("where a joint hardly moves", draws.one_that_hardly_moves),
+            Edge("where a joint rests", draws.one_that_rests),
+            Edge("where a joint turns by more than half a turn", draws.a_step_of_more_than_half_a_turn),
             Edge("where joint 1 sets the speed", draws.moves_most_but_may(0)),
             Edge("where the last joint sets the speed", draws.moves_most_but_may(2)),
             Edge("for whole numbers", draws.whole_motion),

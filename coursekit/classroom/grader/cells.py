@@ -64,6 +64,22 @@ def _parses(text: str) -> bool:
     return True
 
 
+def why_missing(data: bytes, code: list[str], name: str) -> str:
+    """Why a notebook defines no function of this name, as far as its text tells. code: its `sources`."""
+    begins = re.compile(rf"^[^\S\n]*(async\s+)?def\s+{re.escape(name)}\b", re.MULTILINE)
+    for source in filter(begins.search, code):
+        try:
+            ast.parse(source)
+        except SyntaxError as error:
+            return f"the cell with `def {name}` is no Python: line {error.lineno}, {error.msg}"
+        except (ValueError, RecursionError, MemoryError):
+            continue
+    others = (c for c in json.loads(data.decode("utf-8-sig"))["cells"] if c["cell_type"] != "code")
+    if any(begins.search(_text(cell["source"])) for cell in others):
+        return f"the cell with `def {name}` is no code cell (Esc, then Y makes it one): nothing in it was run"
+    return "the notebook defines no such function"
+
+
 def definitions(source: str, after: int) -> str:
     """Functions, classes, imports and assignments of a cell below a line, every one still on its own line.
 

@@ -33,6 +33,7 @@ from .box import BoxLost, Limits, bubblewrap
 from .clinic import Clinic
 from .handed_out import handed_out
 from .locked import locked_files, write_files
+from .reply import clean
 from .student import Student
 
 
@@ -103,8 +104,9 @@ def grade(job: dict, libraries: _Libraries) -> dict:
                     exercise, [x.arguments for x in examples], robots_can(course, job["unit"], examples)
                 )
             except (BoxLost, ValueError) as error:
-                row["text"] = f"no answer: {error}"
-                row["kind"] = "missing" if "no such function" in str(error) else "lost"
+                missing = "no such function" in str(error)
+                why = clean(cells.why_missing(data, sources, exercise.name)) if missing else error
+                row |= {"text": f"no answer: {why}", "kind": "missing" if missing else "lost"}
                 continue
             found = verdict(exercise, examples, attempts)
             row |= {"text": _told(found), "points": exercise.points if found.right else 0}

@@ -231,6 +231,10 @@ def screws_of_standard_rows(rows, base):
     return _columns(columns)
 
 
+def screws_with_the_point_as_v(rows, base):
+    return np.column_stack([np.append(T[:3, 2], T[:3, 3]) for T in _frames(rows, base)[1:]])
+
+
 def screws_from_one_side(rows, base):
     return _columns([T @ _turn(0, 0, 1) for T in _frames(rows, base)[1:]])
 
@@ -294,6 +298,7 @@ WRONG = {
         "frame_before": screws_of_frame_before,
         "row_alone": screws_of_row_alone,
         "standard": screws_of_standard_rows,
+        "point_as_v": screws_with_the_point_as_v,
         "one_side": screws_from_one_side,
         "no_base": screws_without_base,
         "no_offset": screws_without_offset,

@@ -92,6 +92,11 @@ def rank_by_squares(J, tol):
     return int((squares > tol * squares.max()).sum())
 
 
+def rank_of_the_sizes(J, tol):
+    sigma = np.linalg.svd(J)[1]
+    return sigma[sigma > tol * sigma[0]].sum()
+
+
 def rank_of_the_lost(J, tol):
     sigma = np.linalg.svd(J)[1]
     return int((sigma < tol * sigma[0]).sum())
@@ -140,6 +145,7 @@ WRONG = {
         "squares": rank_by_squares,
         "frobenius": lambda J, tol: int((np.linalg.svd(J)[1] > tol * np.linalg.norm(J)).sum()),
         "lost": rank_of_the_lost,
+        "added": rank_of_the_sizes,
     },
     "lost_motion": {
         "joint_rates": lambda J: np.linalg.svd(J)[2][-1],

@@ -207,7 +207,8 @@ def _constant(node: ast.Constant, variables: list[str]) -> Made:
 def _kind_of_number(old: float, new: float) -> str:
     if new == -old:
         return "sign"
-    return "millimetres" if old and new and {abs(old / new), abs(new / old)} == {1000.0, 0.001} else "number"
+    lengths = old and new and {abs(old / new), abs(new / old)} == {1000.0, 0.001}
+    return "millimetres" if lengths and max(abs(old), abs(new)) >= 1 else "number"  # 1e-4 is no length in mm
 
 
 def _give(value: Any) -> Callable:

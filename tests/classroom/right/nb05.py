@@ -203,6 +203,16 @@ def torques__by_adjoint(J_b, T, moment, force):
     return np.concatenate([moment, force]) @ lie.adjoint(turn) @ J_b
 
 
+def dls_loop__filled(robot, T_sd, theta, k, steps):
+    q = np.empty((steps + 1, robot.n))
+    q[0] = theta
+    for i in range(1, steps + 1):
+        e = lie.log6(np.linalg.inv(robot.fk(q[i - 1])) @ T_sd)
+        J = robot.jacobian_body(q[i - 1])
+        q[i] = q[i - 1] + J.T @ np.linalg.solve(J @ J.T + k**2 * np.eye(6), e)
+    return q
+
+
 def dls_loop__array(robot, T_sd, theta, k, steps):
     q = np.zeros((steps + 1, len(theta)))
     q[0] = theta
