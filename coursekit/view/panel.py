@@ -303,6 +303,7 @@ class Panel(ipywidgets.VBox):
             widget.observe(lambda change: change.new or self._catch_up(), "live")
         if widget.has_trait("pointed"):
             widget.observe(self._pointed, "pointed")
+            widget.observe(lambda _change: self.refresh(), "room")
         if isinstance(widget, parts.Action) or getattr(widget, "walkable", False):
             widget.on_msg(self._message)
 

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 # Colours of curves: a contrast of 3 or more on white and on the paper of a dark page.
 CURVES = ("#0E8FA3", "#C2307E", "#C75B12", "#3A7DE0", "#5F8A1E", "#8F6BD4", "#A07A12", "#7B8794")
+LOW = 2.8  # inches: a figure that has to be narrow is not drawn lower
 _INK = "#010203"  # where matplotlib writes it, the page's own ink comes
 STYLE: Any = {
     **dict.fromkeys(("figure.facecolor", "axes.facecolor", "savefig.facecolor", "legend.facecolor"), "none"),
@@ -72,6 +73,7 @@ class Plot(anywidget.AnyWidget):
     numbers: traitlets.List = traitlets.List().tag(sync=True)  # rows of text: the title, the header, the rest
     cursor: traitlets.List = traitlets.List().tag(sync=True)  # [x, y low, y high] in fractions of the picture
     width = traitlets.Int().tag(sync=True)
+    room = traitlets.Int().tag(sync=True)  # pixels that the page has for the figure: `width` or fewer
     clickable = traitlets.Bool(False).tag(sync=True)
     walkable = traitlets.Bool(False).tag(sync=True)
     pointed = traitlets.Dict().tag(sync=True)  # by a hand: {"x", "y"} in such fractions, "live", "count"
@@ -96,7 +98,8 @@ class Plot(anywidget.AnyWidget):
         self._cost = 0.0  # seconds of the last drawing
         self._drawn_at = 0.0
         can = {"clickable": on_click is not None, "walkable": on_step is not None}
-        super().__init__(alt=caption, caption=caption, width=round(96 * size[0]), **can)
+        width = round(96 * size[0])
+        super().__init__(alt=caption, caption=caption, width=width, room=width, **can)
 
     def refresh(self, values: dict) -> None:
         """Draw the figure for these values where it shows something else, and place the marks."""
@@ -104,7 +107,7 @@ class Plot(anywidget.AnyWidget):
             if self._is_old(values):
                 begun = time.monotonic()
                 self._draw(values)
-                self._shown = self.key(values) if self.key else None
+                self._shown = self._key(values)
                 self._drawn_at = time.monotonic()
                 self._cost = self._drawn_at - begun
             self.cursor = self._placed(self.marks(values)) if self.marks else []
@@ -129,17 +132,25 @@ class Plot(anywidget.AnyWidget):
 
     # -- inside
 
+    def _key(self, values):
+        return (self.room, self.key(values)) if self.key else None
+
     def _is_old(self, values):
-        return self._figure is None or self.key is None or self.key(values) != self._shown
+        return self._figure is None or self.key is None or self._key(values) != self._shown
 
     def _draw(self, values):
         from matplotlib import rc_context
         from matplotlib.backends.backend_svg import FigureCanvasSVG
         from matplotlib.figure import Figure
 
+        wide, high = self.room / 96, self._size[1]
+        size = (
+            wide,
+            max(high * wide / self._size[0], min(high, LOW)),
+        )  # letters take their share of the height
         written, nothing = io.StringIO(), dict.fromkeys(("Date", "Creator", "Format", "Type"))
         with rc_context(STYLE):
-            self._figure = Figure(figsize=self._size, layout="constrained")
+            self._figure = Figure(figsize=size, layout="constrained")
             FigureCanvasSVG(self._figure)
             self.draw(self._figure, values)
             self._figure.savefig(written, format="svg", metadata=nothing)
@@ -173,7 +184,8 @@ class Plot(anywidget.AnyWidget):
 
 
 def decades(ax: Axes, powers: Sequence[int]) -> None:
-    """Ticks of an upright log axis at these powers of ten, as text that any font sets; none between them."""
+    """Ticks of an upright log axis at these powers of ten, as text that any font sets, over whole steps."""
     raised = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
     ax.set_yticks([10.0**k for k in powers], [f"10{str(k).translate(raised)}" if k else "1" for k in powers])
     ax.minorticks_off()  # many ticks are slow to draw
+    ax.xaxis.get_major_locator().set_params(integer=True)

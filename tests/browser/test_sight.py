@@ -154,6 +154,16 @@ def test_axe_finds_nothing(opened, theme):
     assert found == []
 
 
+# Letters of the plot, once it is drawn for the room that there is.
+LETTERS = """() => {
+    const [plot, text] = [".ck-plot", ".ck-plot svg"].map((which) => document.querySelector(which));
+    const scale = plot.clientWidth / text.viewBox.baseVal.width;
+    const all = [...text.querySelectorAll("text")];
+    const sizes = all.map((one) => parseFloat(getComputedStyle(one).fontSize));
+    return all.length > 5 && scale * Math.min(...sizes) >= 11;
+}"""
+
+
 def test_on_a_narrow_screen_the_small_figures_stand_below_the_picture_and_above_the_controls(lab, open_page):
     notebook = open_page(viewport={"width": 412, "height": 900})
     notebook.open(lab.write("narrow.ipynb", IMPORT, "view.explore_inverse()"))
@@ -161,6 +171,7 @@ def test_on_a_narrow_screen_the_small_figures_stand_below_the_picture_and_above_
     notebook.run_all()
     notebook.wait_view()
     page = notebook.page
+    page.wait_for_function(LETTERS)
     page.evaluate("() => document.querySelector('.ck-panel').scrollIntoView({ block: 'start' })")
     page.wait_for_timeout(500)
     outer = page.locator(".jp-WindowedPanel-outer").bounding_box()

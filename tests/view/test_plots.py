@@ -69,6 +69,17 @@ def test_every_color_of_a_curve_can_be_seen_on_both_papers():
     assert min(contrast(color, paper) for color in CURVES for paper in PAPERS) >= 3
 
 
+def test_where_there_is_less_room_the_figure_is_smaller_and_its_letters_are_not(opened):
+    _, plot = opened("explore_inverse")
+    sizes = []
+    for room in (plot.width, 290):
+        plot.room = room
+        points = float(re.search(r'viewBox="0 0 ([\d.]+)', plot.svg).group(1))
+        assert 72 / 96 * room == pytest.approx(points), "drawn as wide as it is shown"
+        sizes.append(set(re.findall(r"font[^;]*?([\d.]+)px", plot.svg)))
+    assert sizes[0] == sizes[1] != set()
+
+
 def test_the_same_figure_is_the_same_text():
     def draw(figure, _values):
         figure.subplots().plot([1, 2], [3, 4], "o", clip_on=True, label="a")

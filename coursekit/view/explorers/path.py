@@ -225,7 +225,7 @@ class _Path(yours.Path, Explorer):
         for bound in (-100, 100):
             ax.axhline(bound, color=ax.xaxis.label.get_color(), ls=":", lw=1.2)
         ax.set(xlabel="distance along the path [m]", ylabel="rate [% of its bound]", ylim=(-115, 115))
-        ax.legend(ncols=3, fontsize=8, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0))
+        ax.legend(ncols=3, fontsize=8.5, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0))
 
     def along(self):
         """How far along the path each of its points is, metres."""

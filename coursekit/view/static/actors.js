@@ -11,7 +11,7 @@ function makeLabels(THREE, viewer, pane, renderer) {
   layer.className = "ck-labels";
   layer.setAttribute("aria-hidden", "true"); // the text line says the same in words
   pane.append(layer);
-  const point = new THREE.Vector3();
+  const point = new THREE.Vector3(), views = pane.parentElement.querySelector(".ck-views");
   let labels = [];
   const visible = (object) => {
     for (let o = object; o; o = o.parent) if (!o.visible) return false;
@@ -30,7 +30,8 @@ function makeLabels(THREE, viewer, pane, renderer) {
     },
     place(handles) {
       const { width, height } = renderer.size(); // not the pane's: that is 0 while JupyterLab moves the cell about
-      const taken = [...handles]; // buttons, which nothing may hide
+      const { offsetLeft, offsetTop, offsetWidth: wide, offsetHeight: high } = views;
+      const taken = [...handles, { x: offsetLeft + wide / 2, y: offsetTop + high / 2, wide, high: high / 2 + 9 }]; // buttons, which nothing may hide
       for (const { span, pos, path, isWord, wide } of labels) {
         const object = viewer.scene_tree.find(path).object;
         point.set(...pos).applyMatrix4(object.matrixWorld).project(viewer.camera);

@@ -160,9 +160,7 @@ function choice(model, el) {
     select.replaceChildren(...model.get("options").map((text) => element("option", { value: text }, text)));
     select.value = model.get("value");
   };
-  select.addEventListener("change", () => {
-    tell(model, { value: select.value });
-  });
+  select.addEventListener("change", () => tell(model, { value: select.value }));
   keepKeys(select);
   const row = element("label", { class: "ck-choice" }, element("span", { class: "ck-name" }, model.get("label")), select);
   leaveRoom(row, model);
@@ -175,9 +173,7 @@ function choice(model, el) {
 function toggle(model, el) {
   const box = element("input", { ...own, type: "checkbox" });
   const draw = () => (box.checked = model.get("value"));
-  box.addEventListener("change", () => {
-    tell(model, { value: box.checked });
-  });
+  box.addEventListener("change", () => tell(model, { value: box.checked }));
   keepKeys(box);
   el.append(element("label", { class: "ck-toggle" }, box, element("span", {}, model.get("label"))));
   model.on("change:value", draw);
@@ -226,9 +222,7 @@ function table(model, el) {
       if (selectable) {
         const radio = element("input", { ...own, type: "radio", name: group, "aria-label": `choose ${row[0]}` });
         radio.checked = i === value;
-        radio.addEventListener("change", () => {
-          tell(model, { value: i });
-        });
+        radio.addEventListener("change", () => tell(model, { value: i }));
         keepKeys(radio);
         line.prepend(element("td", {}, radio));
         if (focused && i === value) setTimeout(() => radio.focus());
@@ -268,6 +262,11 @@ function plot(model, el) {
       Object.assign(mark.style, { left: `${100 * x}%`, bottom: `${100 * low}%`, height: `${100 * (high - low)}%` });
     });
   };
+  let timer = null;
+  const fit = () => { // where there is less room the kernel draws a smaller figure, with letters as large
+    const room = frame.clientWidth;
+    if (room > 200 && room !== model.get("room")) tell(model, { room });
+  };
   frame.style.width = `${model.get("width")}px`;
   if (model.get("clickable")) takeHands(model, frame);
   if (model.get("walkable")) takeArrows(model, frame);
@@ -277,6 +276,10 @@ function plot(model, el) {
   model.on("change:cursor", place);
   draw();
   place();
+  return watchSize(frame, () => {
+    clearTimeout(timer);
+    timer = setTimeout(fit, 200);
+  });
 }
 
 // A click on a plot, or a drag: from anywhere by the mouse, by touch from a mark alone, since a swipe scrolls the page.

@@ -22,3 +22,15 @@ function latestWord() {
     },
   };
 }
+
+// JupyterLab puts its own class in place of ResizeObserver and never lets go of one, nor of what its callback can see:
+// hence a function that sees nothing else, and forgets what it called.
+function watchSize(pane, act) {
+  let resized = act;
+  const observer = new ResizeObserver(() => resized());
+  observer.observe(pane);
+  return () => {
+    observer.disconnect();
+    resized = () => {};
+  };
+}

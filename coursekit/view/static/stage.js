@@ -154,18 +154,6 @@ function quietViewer(MeshCat, pane, renderer) {
   }
 }
 
-// JupyterLab puts its own class in place of ResizeObserver and never lets go of one, nor of what its callback can see:
-// hence a function that sees nothing else, and forgets what it called.
-function watchSize(pane, act) {
-  let resized = act;
-  const observer = new ResizeObserver(() => resized());
-  observer.observe(pane);
-  return () => {
-    observer.disconnect();
-    resized = () => {};
-  };
-}
-
 function release(object) {
   object.traverse((part) => {
     if (part.geometry) part.geometry.dispose();
