@@ -336,14 +336,15 @@ class Panel(ipywidgets.VBox):
         """A hand in the picture moved a target or the joints: their sliders say so, all at once."""
         with self._lock:
             told = change.new
-            moved = {target.path: target.sliders for target in self._targets()}.get(told["what"])
-            sliders = moved or self._drivers(self.values)
+            target = {one.path: one for one in self._targets()}.get(told["what"])
+            sliders = target.sliders if target else self._drivers(self.values)
             with self._silence():
                 for slider, value in zip(sliders, told["values"], strict=False):
                     if slider is not None and value is not None:
                         slider.value, slider.live = value, told["live"]
             try:
-                self.end_motion()
+                if target is None or not target.in_picture:
+                    self.end_motion()
                 self.refresh(live=told["live"])
             finally:
                 self.viewer.heard = told["count"]

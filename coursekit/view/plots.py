@@ -188,4 +188,4 @@ def decades(ax: Axes, powers: Sequence[int]) -> None:
     raised = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
     ax.set_yticks([10.0**k for k in powers], [f"10{str(k).translate(raised)}" if k else "1" for k in powers])
     ax.minorticks_off()  # many ticks are slow to draw
-    ax.xaxis.get_major_locator().set_params(integer=True)
+    ax.locator_params(axis="x", integer=True)

@@ -106,7 +106,7 @@ def where_after(robot: Robot, theta: np.ndarray, j: int, by: float, words: str, 
 
     def judge(guess: np.ndarray) -> Told:
         parts = (_along_line if slides else _about_axis)(S[:, j], by, start, guess, tol)
-        return _near(guess, right, others, tol, list(parts)), right
+        return near(guess, right, others, tol, list(parts)), right
 
     seen = np.array([start, right, _moved(S[:, j], -by, start)])
     return Question(words, (robot.name, j, by, *theta), start, judge, seen, **more)
@@ -207,7 +207,7 @@ def which_way(
     return Question(words, key, start, judge, seen, origin)
 
 
-def _near(guess, right, others, tol, parts):
+def near(guess, right, others, tol, parts):
     """How far off, and what the guess looks like."""
     off = float(np.linalg.norm(guess - right))
     told = f"{text.millimetres(off, 0)} off"

@@ -262,3 +262,31 @@ def test_the_velocity_of_the_tool(robot, opened):
         press(panel, "next_question")
     panel.set(theta=panel.values["theta"] + 0.01)
     assert panel.line.value.startswith(questions.MOVED)
+
+
+@pytest.mark.parametrize("name", ["abb_irb1200", "planar_2r"])
+def test_the_bound_and_the_elbow_on_a_path(name, opened):
+    robot = ARMS[name]
+    panel = opened(view.explore_path, robot)
+    told, explorer = panel.line.value, panel._update.__self__
+    panel.set(predict=True)
+    asked = panel.line.value.splitlines()[0]
+    limit = explorer.limit
+    assert f"joint {limit.joint[explorer.branch] + 1} sets the largest speed. Where" in asked
+    assert "after point" in told and "after point" not in panel.line.value
+    assert "Hidden until" in panel.below[0].svg and not panel.below[0].cursor
+    steps = (explorer.points[1:] + explorer.points[:-1]) / 2
+    right = steps[limit.index[explorer.branch]]
+    assert in_the_picture(panel, right, explorer.points[0])
+    assert "Right: 0 mm off." in answer(panel, right)
+    assert limit.index[explorer.branch] == panel.motion.frame and "Hidden" not in panel.below[0].svg
+    panel.set(branch=panel.values["branch"], predict=False)
+    panel.set(predict=True)
+    panel.rest_at(30)
+    assert questions.MOVED in panel.line.value
+    press(panel, "next_question")
+    assert not any("predict" in path for path in panel.viewer.motion["moving"]), "it stays with the hand"
+    assert panel.motion.frame == 0 and "to its middle, point 51. Where will joint" in panel.line.value
+    elbow = explorer.prediction.question.judge(np.zeros(3))[1]
+    assert "You hit the place half-way: 0 mm off." in answer(panel, elbow)
+    assert panel.motion.frame == 50

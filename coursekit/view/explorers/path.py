@@ -7,12 +7,13 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import path, robots
 from coursekit.kinematics.robot import Robot
-from coursekit.view import pointing, text
+from coursekit.view import pointing, questions, text
 from coursekit.view.controls import Choice, Toggle
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.explorers.letter import Followed, Letter
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
+from coursekit.view.prediction import ROOT
 from coursekit.view.table import Table
 
 POINTS = (101, 201, 501, 1001, 5001)
@@ -58,6 +59,7 @@ class _Path(yours.Path, Explorer):
     """The arm on the path: all branches at every sampling asked for so far, and the one that is shown."""
 
     name, title, opener = "path", "Explorer of the path", "explore_path"
+    predicts = True
 
     def __init__(self, robot, curve, mine):
         super().__init__(robot, mine)
@@ -117,6 +119,8 @@ class _Path(yours.Path, Explorer):
         self.choose(values["points"], values["bounds"], values["branch"], values["wrapped"])
         if self.panel and self.frame is None:  # the motion ends with every choice: here is another
             self.send()
+            if self.prediction:
+                self.prediction.told = ""  # it was about the other choice
         self.place = int(self.shown[self.frame]) if self.panel else 0
         self.arm.theta = self.q[self.branch, self.place]
         for name, drawn in self.switched.items():
@@ -143,7 +147,46 @@ class _Path(yours.Path, Explorer):
         self.shown = np.linspace(0, n - 1, min(n, FRAMES)).round().astype(int)
         seconds = path.steps(self.points).sum() / self.limit.speed[self.branch]
         fps, texts = (len(self.shown) - 1) / seconds, self._at(self.shown)
+        self.scene.remove(ROOT)  # what is asked takes no part in it
         self.panel.play(self.q[self.branch, self.shown], fps=fps, texts=texts, autoplay=False)
+
+    # -- where is a joint at its bound, and where will the elbow be?
+
+    def question(self, values):
+        if self.frame:
+            return questions.MOVED
+        k, half = self.branch, len(self.points) // 2
+        if self.number % 2:
+            asked, name = f"the arm follows the letter to its middle, point {half + 1}.", "the place half-way"
+            q, rest = self.q[k, [half]], self._rest
+            return questions.which_elbow(self.robot, self.q[k, 0], q, [name], asked, lambda _i: rest(half))
+        joint, size = self.limit.joint[k], self.scene.size
+        use = np.abs(self._use(self.limit))
+        middle = (self.points[1:] + self.points[:-1]) / 2  # of each step
+        full = middle[use[:, joint] > 1 - 1e-9]  # two where it is symmetric
+        others = {
+            f"there joint {j + 1} is fastest": middle[use[:, j].argmax()]
+            for j in range(self.robot.n)
+            if use[:, j].max() > 0.01 and j != joint
+        }
+
+        def judge(guess):
+            right = full[np.linalg.norm(full - guess, axis=1).argmin()]
+            return questions.near(guess, right, others, questions.NEAR * size, []), right
+
+        asked = f"joint {joint + 1} sets the largest speed. Where on the letter is it at its bound?"
+        key = (self.robot.name, k, len(self.points), self.wrapped, *self.bounds)
+        return questions.Question(
+            f"{asked} Drag the point there.",
+            key,
+            self.points[0],
+            judge,
+            self.points,
+            show=lambda right: self._rest(np.linalg.norm(middle - right, axis=1).argmin()),
+        )
+
+    def _rest(self, place):
+        self.panel.rest_at(np.abs(self.shown - place).argmin())
 
     # -- words, table, plot
 
@@ -165,14 +208,14 @@ class _Path(yours.Path, Explorer):
         k, theta = self.branch, self.q[self.branch, self.place]
         joint = self.limit.joint[k]
         full = np.flatnonzero(np.abs(self._use(self.limit)[:, joint]) > 1 - 1e-9)  # two where it is symmetric
-        where = " and ".join(f"after point {i + 1}" for i in full[:2])
+        where = "" if self.asking else " " + " and ".join(f"after point {i + 1}" for i in full[:2])
         inside = "inside" if self.robot.within_limits(theta) else "outside"
         speed, bound = text.number(self.limit.speed[k], 4), text.number(self.bounds[joint])
         kinds = self.robot.joint_types
         lines = [
             self.names[k],  # the point of the path and its rates stand beside the buttons of the motion
             f"joints {text.joints(kinds, theta)}: {inside} the limits",
-            f"largest speed {speed} m/s: joint {joint + 1} at {bound} {self.rate_unit(joint)} {where}",
+            f"largest speed {speed} m/s: joint {joint + 1} at {bound} {self.rate_unit(joint)}{where}",
             *self.letter.remarks,
         ]
         return "\n".join([*lines, self._fault()] if self.wrapped else lines)
@@ -219,6 +262,9 @@ class _Path(yours.Path, Explorer):
     def plot(self, figure, values):
         """Joint rates over the path, in percent of the bounds."""
         ax, step = figure.subplots(), path.steps(self.points)
+        if self.asking:
+            ax.text(0.5, 0.5, "Hidden until the question is answered.", ha="center")
+            return ax.set_axis_off()
         use = 100 * self._use(self.faulty if self.wrapped else self.limit)
         for j, rate in enumerate(use.T):
             ax.plot(self.along()[:-1] + step / 2, rate, ls=STYLES[j % 6], lw=1.6, label=f"joint {j + 1}")
@@ -233,11 +279,11 @@ class _Path(yours.Path, Explorer):
 
     def chosen(self, values):
         """What the plot shows: every choice but the drawn surfaces."""
-        return values["points"], values["branch"], values["wrapped"], *values["bounds"]
+        return self.asking, values["points"], values["branch"], values["wrapped"], *values["bounds"]
 
     def here(self, values):
         """Where the arm is."""
-        return [self.along()[self.place], np.nan]
+        return [] if self.asking else [self.along()[self.place], np.nan]
 
     def click(self, s, _y):
         """Put the arm at the pose of the motion nearest to s along the path."""

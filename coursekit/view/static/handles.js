@@ -7,7 +7,7 @@
 const ARROW = 88, RING = 48, EDGE = 16; // pixels
 const SVG = "http://www.w3.org/2000/svg";
 
-// taken(what): a hand has moved "theta" or the target at a path; redraw(): what stands where has changed
+// taken(what, isPoint): a hand has moved "theta" or the target at a path; redraw(): what stands where has changed
 function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, redraw }) {
   const layer = element("div", { class: "ck-handles", role: "group", "aria-label": "handles in the picture" });
   const lines = document.createElementNS(SVG, "svg");
@@ -59,7 +59,7 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
   const putTarget = (target, T, live) => {
     put(target.name, target.sliders, target.per.map((per, k) => valuesOf(T)[k] * per), live);
     target.held = target.sliders.map((slider, k) => slider.get("value") / target.per[k]);
-    taken(target.name);
+    taken(target.name, isPoint(target));
   };
   const isPoint = (target) => target.sliders.length === 3; // moved as it is turned: not at all
   const targetPose = ({ held, sliders, per }) => poseOf([...(held || sliders.map((slider, k) => slider.get("value") / per[k])), 0, 0, 0]);

@@ -119,8 +119,8 @@ export default function () {
       });
       let late = null;
       const handles = makeHandles(MeshCat.THREE, viewer, pane, stage.renderer, model, follower, {
-        taken(what) {
-          player.load(null);
+        taken(what, isGuess) {
+          if (!isGuess) player.load(null);
           if (what === "theta") return stage.moved();
           handles.place();
           handles.draw(); // the rest waits for the kernel's answer, which would wait for a frame of the target alone
