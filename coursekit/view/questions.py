@@ -207,19 +207,22 @@ def which_way(
     return Question(words, key, start, judge, seen, origin)
 
 
-def near(guess, right, others, tol, parts):
-    """How far off, and what the guess looks like."""
+def near(
+    guess: np.ndarray, right: np.ndarray, others: Mapping[str, np.ndarray], tol: float, parts: list
+) -> str:
+    """How far off a guess (3,) is, and what it looks like: one of `others`, or what of its parts fits."""
     off = float(np.linalg.norm(guess - right))
     told = f"{text.millimetres(off, 0)} off"
     if off <= tol:
         return f"Right: {told}."
     away = {name: float(np.linalg.norm(guess - p)) for name, p in others.items()}
-    name = min(away, key=away.__getitem__)
-    if away[name] <= tol and away[name] < off:
+    name = min(away, key=away.__getitem__, default="")
+    if name and away[name] <= tol and away[name] < off:
         return f"{told}: {name}."
     good = [said for fits, said, _ in parts if fits]
     bad = [said for fits, _, said in parts if not fits]
-    return f"{told}: {' and '.join(good)}{', but ' if good and bad else ''}{', '.join(bad)}."
+    said = f"{' and '.join(good)}{', but ' if good and bad else ''}{', '.join(bad)}"
+    return f"{told}: {said}." if said else f"{told}."
 
 
 def _about_axis(S, by, start, guess, tol):

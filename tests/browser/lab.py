@@ -247,7 +247,15 @@ class Notebook:
 
     def settle(self):
         """Wait until the kernel has the last slider value and the page its pose."""
-        self.page.wait_for_timeout(300)
+        self.page.wait_for_timeout(200)
+        # A question that comes after what was sent, and one after what was held back until that was answered:
+        # a kernel that has not begun yet says "idle", too.
+        self.page.evaluate(
+            """async () => {
+                 const { kernel } = window.jupyterapp.shell.currentWidget.context.sessionContext.session;
+                 for (let i = 0; i < 2; i += 1) await kernel.requestKernelInfo();
+               }"""
+        )
         self.idle()
         self.rest()
 

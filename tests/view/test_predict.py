@@ -278,6 +278,7 @@ def test_the_bound_and_the_elbow_on_a_path(name, opened):
     steps = (explorer.points[1:] + explorer.points[:-1]) / 2
     right = steps[limit.index[explorer.branch]]
     assert in_the_picture(panel, right, explorer.points[0])
+    assert explorer.prediction.question.judge(np.array([5.0, 0, 0]))[0].endswith(" mm off.")
     assert "Right: 0 mm off." in answer(panel, right)
     assert limit.index[explorer.branch] == panel.motion.frame and "Hidden" not in panel.below[0].svg
     panel.set(branch=panel.values["branch"], predict=False)
