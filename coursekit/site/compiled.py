@@ -1,7 +1,8 @@
-"""Python's files compiled for the browser, where node is there to do it: a third less work to the first cell.
+"""Python's files compiled for the browser, where node is there to do it: half the work to the first cell.
 
-Only what a session imports is compiled, since compiled files are larger; `coursekit` stays as it is, so that
-its lines can be read. node runs the browser's own Python: what another version compiles is of no use to it.
+Only what a session imports is compiled (compiled files are larger), of Python's own library too; `coursekit`
+stays as it is, so that its lines can be read. node runs the browser's own Python: what another version
+compiles is of no use to it.
 """
 
 from __future__ import annotations
@@ -9,14 +10,14 @@ from __future__ import annotations
 import hashlib
 import importlib
 import json
+import marshal
 import pkgutil
-import py_compile
 import shutil
 import subprocess
 import sys
-import tempfile
 import zipfile
 from collections.abc import Iterable
+from importlib import util
 from pathlib import Path
 
 COURSE = "coursekit"
@@ -46,48 +47,44 @@ def where_node_is(folder: Path, packages: Iterable[str]) -> bool:
 
 def rewrite(folder: str) -> None:
     """Run there, by that Python: compile what a session imports, and mend the sums of the lock."""
-    lock = json.loads((Path(folder) / "pyodide-lock.json").read_text(encoding="utf-8"))
     used = imported()
-    for entry in lock["packages"].values():
+    site = Path(str(sys.modules[COURSE].__file__)).parents[1]
+    _compile(Path(folder) / "python_stdlib.zip", Path(str(json.__file__)).parents[1], used)
+    lock = json.loads((Path(folder) / "pyodide-lock.json").read_text(encoding="utf-8"))
+    for name, entry in lock["packages"].items():
         path = Path(folder) / entry["file_name"]
-        with zipfile.ZipFile(path) as wheel:
-            files = {file: wheel.read(file) for file in wheel.namelist()}
-        if not used.keys() & files.keys():
-            continue
-        for file in used.keys() & files.keys():
-            files[f"{file}c"] = compiled(used[file], file.partition("/")[0] in TERSE)
-            del files[file]
-        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as wheel:
-            for file, data in sorted(files.items()):
-                about = zipfile.ZipInfo(file, (1980, 1, 1, 0, 0, 0))
-                about.compress_type = zipfile.ZIP_DEFLATED
-                wheel.writestr(about, data)
+        if name != COURSE:
+            _compile(path, site, used)
         entry["sha256"] = hashlib.sha256(path.read_bytes()).hexdigest()
     (Path(folder) / "pyodide-lock.json").write_text(json.dumps(lock), encoding="utf-8")
 
 
-def imported() -> dict[str, Path]:
-    """{name in a wheel: file} of what is imported once the course is, without the course."""
+def imported() -> set[str]:
+    """The files of what is imported once the course is."""
     course = importlib.import_module(COURSE)
     for module in pkgutil.walk_packages(course.__path__, f"{COURSE}."):
         importlib.import_module(module.name)
     for name in ALSO:
         importlib.import_module(name)
-    site = Path(str(course.__file__)).parents[1]
-    named = [getattr(module, "__file__", None) for module in list(sys.modules.values())]
-    files = [Path(file) for file in named if file]
-    return {
-        file.relative_to(site).as_posix(): file
-        for file in files
-        if file.suffix == ".py" and file.is_relative_to(site) and COURSE not in file.parts
-    }
+    return {str(getattr(module, "__file__", None)) for module in list(sys.modules.values())}
 
 
-def compiled(path: Path, terse: bool = False) -> bytes:
+def _compile(path: Path, root: Path, used: set[str]) -> None:
+    """Compile, in an archive that is unpacked or read at `root`, the files that are used."""
+    with zipfile.ZipFile(path) as archive:
+        files = {file: archive.read(file) for file in archive.namelist() if not file.endswith("/")}
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for file, data in sorted(files.items()):
+            place = f"{root}/{file}"
+            if place in used and file.endswith(".py"):
+                file, data = f"{file}c", compiled(data, place, file.partition("/")[0] in TERSE)
+            about = zipfile.ZipInfo(file, (1980, 1, 1, 0, 0, 0))
+            about.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(about, data)
+
+
+def compiled(source: bytes, place: str, terse: bool = False) -> bytes:
     """The compiled file of a file, which Python takes without looking for the file itself."""
-    with tempfile.TemporaryDirectory() as folder:
-        out = Path(folder) / "one.pyc"
-        unchecked = py_compile.PycInvalidationMode.UNCHECKED_HASH
-        level = 2 if terse else 0
-        py_compile.compile(str(path), str(out), doraise=True, optimize=level, invalidation_mode=unchecked)
-        return out.read_bytes()
+    code = compile(source, place, "exec", dont_inherit=True, optimize=2 if terse else 0)
+    unchecked = (1).to_bytes(4, "little")  # PEP 552
+    return util.MAGIC_NUMBER + unchecked + util.source_hash(source) + marshal.dumps(code)

@@ -23,9 +23,11 @@ _FIRST = re.compile(
     r"^(static/pyodide|lab|files|api)/|^build/jlab_core\.|^extensions/.*remoteEntry|^[^/]*\.json$"
 )
 STATIC = Path(__file__).with_name("static")
-# What JupyterLab's page has besides: Python, and the system's colours before there is a theme.
+# What JupyterLab's page has besides: Python, the system's colours before there is a theme, and marks of
+# waiting that stand still: one that turns takes the processor from Python, for which it waits.
 _HEAD = """<script src="../early.js"></script>
-<style>@media (prefers-color-scheme: dark) { html body { background-color: #111; color: #fff; } }</style>"""
+<style>@media (prefers-color-scheme: dark) { html body { background-color: #111; color: #fff; } }
+html .jp-KernelStatus-spinner, html #jupyterlab-splash [id^=moon] { animation: none !important; }</style>"""
 
 
 # Where "Run it here" leads, with the name of a notebook.
@@ -41,11 +43,12 @@ SHIPPED = {
 }
 
 # No text of its licence comes with its files; it asks to be told where the source is.
-PYODIDE = f"""pyodide {wheels.VERSION}: Python and its packages for a browser, files unchanged
+PYODIDE = f"""pyodide {wheels.VERSION}: Python and its packages for a browser, some of their files compiled
   Mozilla Public License 2.0, https://www.mozilla.org/MPL/2.0/
   its source: https://github.com/pyodide/pyodide/tree/{wheels.VERSION}
   Python itself: PSF License 2, https://docs.python.org/3/license.html
-  numpy, matplotlib, pillow and others: each wheel in run/static/pyodide holds its own licence
+  numpy, matplotlib, pillow and others: each wheel in run/static/pyodide holds its own licence, and
+  python_stdlib.zip there those of the packages in it
 """
 
 

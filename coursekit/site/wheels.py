@@ -54,6 +54,10 @@ AT_ONCE = (
     "coursekit",
 )
 
+# Other packages of pure Python lie in Python's own library, an archive that is read where it is: to unpack
+# them takes as long as to import them. Not these: they open files of their own.
+_OPEN_FILES = ("meshcat", "parso")
+
 # Parts of the course that need a server or a process of their own.
 NOT_IN_A_BROWSER = re.compile(
     r"coursekit/(__main__|commands|view/reopened|classroom/lab)\.py|coursekit/view/static/(lab|server)/|__pycache__"
@@ -77,7 +81,7 @@ def canonical(name: str) -> str:
 
 
 def write(pyodide: Path, kernel: Path, course: Path, version: str, out: Path) -> dict[str, dict]:
-    """Write Pyodide's core, the wheels and their lock into a new folder.
+    """Write Pyodide's core, with what lies in its library, the wheels and their lock into a new folder.
 
     Parameters
     ----------
@@ -93,13 +97,18 @@ def write(pyodide: Path, kernel: Path, course: Path, version: str, out: Path) ->
     Returns
     -------
     dict
-        The packages of the lock.
+        The packages, as a lock names them.
     """
     theirs = official(pyodide)
     out.mkdir(parents=True)
     for name in CORE:
         shutil.copy(pyodide / name, out / name)
     packages: dict[str, dict] = {}
+    made: dict[str, bytes] = {}
+
+    def keep(entry: dict, data: bytes) -> None:
+        name = canonical(entry["name"])
+        packages[name], made[name] = {**entry, "sha256": hashlib.sha256(data).hexdigest()}, data
 
     def add(name: str) -> None:
         name = canonical(name)
@@ -107,7 +116,7 @@ def write(pyodide: Path, kernel: Path, course: Path, version: str, out: Path) ->
             return
         entry = dict(theirs["packages"][name])
         entry["depends"] = [canonical(n) for n in entry["depends"] if canonical(n) not in NOT_NEEDED]
-        packages[name] = _store(out, entry, _slim((pyodide / entry["file_name"]).read_bytes()))
+        keep(entry, _slim((pyodide / entry["file_name"]).read_bytes()))
         for need in entry["depends"]:
             add(need)
 
@@ -115,25 +124,38 @@ def write(pyodide: Path, kernel: Path, course: Path, version: str, out: Path) ->
         add(name)
     for name, (imports, needs) in FROM_HERE.items():
         file, data = from_here(name)
-        packages[name] = _store(out, _entry(name, file, imports, needs), data)
+        keep(_entry(name, file, imports, needs), data)
     for start, (imports, needs) in OF_THE_KERNEL.items():
         (wheel,) = kernel.glob(f"{start}*.whl")
-        name = canonical(wheel.name.split("-")[0])
-        packages[name] = _store(out, _entry(name, wheel.name, imports, needs), wheel.read_bytes())
+        keep(_entry(canonical(wheel.name.split("-")[0]), wheel.name, imports, needs), wheel.read_bytes())
     # The kernel wants "ssl". Nothing here speaks to a server, so 2 MB of OpenSSL can stay away.
     stub = _zip({"ssl-1.0.0.dist-info/METADATA": _about("ssl", "1.0.0")})
-    packages["ssl"] = _store(out, _entry("ssl", "ssl-1.0.0-py3-none-any.whl", (), ()), stub)
+    keep(_entry("ssl", "ssl-1.0.0-py3-none-any.whl", (), ()), stub)
     file = f"coursekit-{version}-py3-none-any.whl"
-    packages["coursekit"] = _store(
-        out, _entry("coursekit", file, ("coursekit",), COURSE), of_course(course, version)
-    )
+    keep(_entry("coursekit", file, ("coursekit",), COURSE), of_course(course, version))
     wanted = {*map(canonical, AT_ONCE), *(need for entry in packages.values() for need in entry["depends"])}
     missing = wanted - set(packages)
     if missing:
         raise ValueError(f"packages of the lock need what is not in it: {', '.join(sorted(missing))}")
-    lock = {"info": theirs["info"], "packages": dict(sorted(packages.items()))}
-    (out / "pyodide-lock.json").write_text(json.dumps(lock), encoding="utf-8")
+    _lay_out(out, theirs["info"], packages, made)
     return packages
+
+
+def _lay_out(out: Path, info: dict, packages: dict[str, dict], made: dict[str, bytes]) -> None:
+    """Write the wheels and their lock; pure ones that nobody loads by name into Python's library."""
+    apart = {*map(canonical, AT_ONCE), *_OPEN_FILES}
+    apart |= {name for name, entry in packages.items() if not entry["file_name"].endswith("-none-any.whl")}
+    library = _unzip((out / "python_stdlib.zip").read_bytes())
+    locked = {}
+    for name, entry in sorted(packages.items()):
+        if name in apart:
+            (out / entry["file_name"]).write_bytes(made[name])
+            locked[name] = {**entry, "depends": [need for need in entry["depends"] if need in apart]}
+        else:
+            library |= _unzip(made[name])
+    (out / "python_stdlib.zip").write_bytes(_zip(library))
+    lock = {"info": info, "packages": locked}
+    (out / "pyodide-lock.json").write_text(json.dumps(lock), encoding="utf-8")
 
 
 def official(pyodide: Path) -> dict:
@@ -171,11 +193,6 @@ def official(pyodide: Path) -> dict:
     return lock
 
 
-def _store(out: Path, entry: dict, data: bytes) -> dict:
-    (out / entry["file_name"]).write_bytes(data)
-    return {**entry, "sha256": hashlib.sha256(data).hexdigest()}
-
-
 def _entry(name: str, file: str, imports: Iterable[str], needs: Iterable[str]) -> dict:
     version = file.split("-")[1]
     about = {
@@ -206,11 +223,13 @@ def _zip(files: dict[str, bytes]) -> bytes:
     return out.getvalue()
 
 
-def _slim(data: bytes) -> bytes:
+def _unzip(data: bytes) -> dict[str, bytes]:
     with zipfile.ZipFile(io.BytesIO(data)) as wheel:
-        return _zip(
-            {n: wheel.read(n) for n in wheel.namelist() if not n.endswith("/") and not _SPARE.search(n)}
-        )
+        return {name: wheel.read(name) for name in wheel.namelist() if not name.endswith("/")}
+
+
+def _slim(data: bytes) -> bytes:
+    return _zip({name: part for name, part in _unzip(data).items() if not _SPARE.search(name)})
 
 
 def from_here(name: str) -> tuple[str, bytes]:

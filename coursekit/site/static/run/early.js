@@ -2,7 +2,7 @@
 // its own; in that worker it loads Pyodide as the kernel would, so that the kernel finds it loaded.
 (() => {
   // What the kernel and nearly every first cell import; between two of them the kernel is heard.
-  const FIRST = ["piplite.piplite", "pyodide_kernel", "numpy", "anywidget", "coursekit.view", "coursekit.kinematics.symbolic"];
+  const FIRST = ["piplite.piplite", "pyodide_kernel", "numpy", "anywidget", "coursekit.view", "coursekit.classroom", "sympy"];
   const IDLE = 120_000; // ms until a worker that nobody asked for goes
 
   async function inWorker() {
