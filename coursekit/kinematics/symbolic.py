@@ -5,11 +5,13 @@ Nothing here takes more than seconds, because nothing large is ever simplified: 
 centre and in the frame of link 3, where theta_2 + theta_3 stays one argument and half of the entries are 0.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-import sympy as sp
 
 from .robot import Robot
 from .symbolic_matrices import (
@@ -27,6 +29,11 @@ from .symbolic_matrices import (
     turn,
     xyx,
 )
+
+if TYPE_CHECKING:
+    import sympy as sp
+else:
+    from .symbolic_matrices import sp
 
 __all__ = [
     "Arm",

@@ -1,11 +1,25 @@
 """The matrices of kinematics in sympy: turns, poses, adjoints, e^[S]theta and DH links, all exact."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
-import sympy as sp
+if TYPE_CHECKING:
+    import sympy as sp
+else:
 
-Scalar: TypeAlias = sp.Expr | float
+    class _Sympy:
+        """sympy, once something is asked of it: of all that a notebook names it takes longest to import."""
+
+        def __getattr__(self, name):
+            import sympy
+
+            return getattr(sympy, name)
+
+    sp = _Sympy()
+
+Scalar: TypeAlias = "sp.Expr | float"
 
 
 def rotx(angle: Scalar) -> sp.Matrix:

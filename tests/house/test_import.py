@@ -36,7 +36,7 @@ def test_import_coursekit_is_numpy_and_one_file():
     assert len(modules) <= 20
 
 
-@pytest.mark.parametrize("names", [MATHEMATICS, "view"])
+@pytest.mark.parametrize("names", [MATHEMATICS, "symbolic", "view"])
 def test_rooms_load_nothing_heavy_before_it_is_needed(names):
     modules = loaded_by(f"from coursekit import {names}")
     assert not {name.split(".")[0] for name in modules} & HEAVY
