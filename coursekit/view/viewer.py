@@ -76,7 +76,8 @@ class Viewer(anywidget.AnyWidget):
     drive = traitlets.Dict().tag(sync=True)  # how the page moves an arm by its sliders, see `driven_by`
     theta: traitlets.List = traitlets.List().tag(sync=True)  # where that arm is in `pose`
     handles: traitlets.List = traitlets.List().tag(sync=True)  # what can be dragged, see `held_by`
-    dragged = traitlets.Dict().tag(sync=True)  # by a hand: {"what", "values", "live", "count"}
+    # by a hand: {"what", "values", "live", "count"}; the page does not wait for its echo
+    dragged = traitlets.Dict().tag(sync=True, echo_update=False)
     heard = traitlets.Int(0).tag(sync=True)  # the count of the last of them that the kernel has taken over
     controls: traitlets.List = traitlets.List().tag(sync=True)  # references to models
     answers = traitlets.Int(0).tag(sync=True)  # counts what the kernel has answered, for pages that wait

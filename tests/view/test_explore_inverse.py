@@ -50,6 +50,28 @@ def test_the_table_chooses_the_solid_arm(panel):
     assert ghosts(panel) == []
 
 
+def test_the_answer_to_a_hand_begins_with_the_solutions(panel, monkeypatch):
+    """Neither an echo nor the sliders, the words or Newton's run go before what the picture waits for."""
+    told, run = [], ik.newton
+
+    def send(widget, message, buffers=None):
+        told.append((widget, {*message["state"], *(path[0] for path in message["buffer_paths"])}))
+
+    monkeypatch.setattr(ipywidgets.Widget, "_send", send)
+    monkeypatch.setattr(
+        ik, "newton", lambda *args, **more: (told.append((None, {"newton"})), run(*args, **more))[1]
+    )
+    goal = panel.values["pose"] + [0.01, 0, 0, 0, 0, 0]
+    shown = [*1000 * goal[:3], *np.degrees(goal[3:])]
+    panel.viewer.set_state({"dragged": {"what": "/ck/target", "values": shown, "live": True, "count": 1}})
+    first, told_first = told[0]
+    assert first is panel.viewer and {"pose", "theta"} <= told_first
+    later = [what for _, what in told[1:]]
+    assert {"newton"} in later and {"heard"} in later and not any("pose" in what for what in later)
+    moved = {widget.name for widget, what in told[1:] if "value" in what}
+    assert {"x", "text"} <= moved
+
+
 def test_moving_the_target_keeps_the_branch(panel):
     kr6 = robots.kuka_kr6()
     panel.set(solution=7)

@@ -1,5 +1,6 @@
 """Notebook 03: every configuration that reaches a pose, and the one Newton's method finds from a guess."""
 
+import functools
 from collections.abc import Callable
 
 import numpy as np
@@ -101,9 +102,8 @@ class _Inverse(yours.Inverse, Explorer):
         self.arm.theta = self.shown
         self.target.move(self.T)
         self.draw_ghosts(self.others(), values["others"])
-        way = self.robot.fk(self.steps())[:, :3, 3]
-        if values["trace"] and len(way) > 1:
-            self.scene.curve("/ck/newton", way)
+        if values["trace"] and self.found.iterations:
+            self.scene.curve("/ck/newton", self.robot.fk(self.steps())[:, :3, 3])
         else:
             self.scene.remove("/ck/newton")
 
@@ -150,9 +150,14 @@ class _Inverse(yours.Inverse, Explorer):
         self.reached, self.theta = bool(exists.any()), self.ways.theta
         if self.reached:
             self.shown = self.ways.theta[self.chosen]
-        self.found = ik.newton(
-            self.robot, self.T, guess, max_iterations=STEPS, tol=1e-9, rows=self.solver.rows
-        )
+        self.guess = guess
+        self.__dict__.pop("found", None)  # it is of another target or guess
+
+    @functools.cached_property
+    def found(self):
+        """Newton's run to this target: after the solutions are sent, unless the picture shows it, too."""
+        rows = self.solver.rows
+        return ik.newton(self.robot, self.T, self.guess, max_iterations=STEPS, tol=1e-9, rows=rows)
 
     def others(self):
         """Ghost name -> configuration: the other solutions or, out of reach, the closest pose found.

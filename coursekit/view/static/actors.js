@@ -52,46 +52,46 @@ function makeLabels(THREE, viewer, pane, renderer) {
 }
 
 // Translucent copies of a robot. They share its geometry, so nothing is sent. Each first writes only depth and then
-// its colour: overlapping parts of one ghost do not add up, and its insides stay hidden. In quick frames they are flat,
-// of fewer triangles and written once: seven of them are most of what a frame costs without a GPU.
+// its colour: overlapping parts of one ghost do not add up, and its insides stay hidden. In quick frames each link is one
+// flat mesh of fewer triangles, written once: without a GPU every mesh costs, and seven ghosts have a hundred parts.
 function makeGhosts(THREE, viewer) {
   let drawn = [];
-  const coarse = new WeakMap(); // of geometries
-  const coarsely = (geometry) => {
-    if (geometry.type !== "LatheGeometry") return geometry;
-    if (!coarse.has(geometry)) coarse.set(geometry, new THREE.LatheGeometry(geometry.parameters.points, 8));
-    return coarse.get(geometry);
-  };
-  const materials = (color, opacity) => {
-    const offset = { polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 4, transparent: true };
-    const depth = new THREE.MeshBasicMaterial({ ...offset, colorWrite: false });
-    const paint = new THREE.MeshLambertMaterial({ ...offset, opacity, emissiveIntensity: 0.35 });
-    paint.color.setHex(color).convertSRGBToLinear();
-    paint.emissive.copy(paint.color);
-    const flat = new THREE.MeshBasicMaterial({ ...offset, opacity, color: paint.color });
-    return [depth, paint, flat];
+  const merged = new WeakMap(); // of links
+  const merge = (parts) => {
+    const points = [], faces = [];
+    for (const { geometry, matrix } of parts) {
+      const { attributes, index } = geometry.type === "LatheGeometry" ? new THREE.LatheGeometry(geometry.parameters.points, 6) : geometry;
+      for (const i of index.array) faces.push(points.length + i);
+      for (let i = 0; i < attributes.position.count; i += 1) points.push(new THREE.Vector3().fromBufferAttribute(attributes.position, i).applyMatrix4(matrix));
+    }
+    return new THREE.BufferGeometry().setFromPoints(points).setIndex(faces);
   };
   return function draw(ghosts) {
     for (const path of drawn) viewer.delete_path(splitPath(path));
     drawn = ghosts.map((ghost) => ghost.path);
     ghosts.forEach(({ src, path, n, color, opacity, shown }, g) => {
       const links = viewer.scene_tree.find(splitPath(src)).children;
-      const passes = materials(color, opacity);
+      const offset = { polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 4, transparent: true };
+      const paint = new THREE.MeshLambertMaterial({ ...offset, opacity, emissiveIntensity: 0.35 });
+      paint.color.setHex(color).convertSRGBToLinear();
+      paint.emissive.copy(paint.color);
+      const depth = new THREE.MeshBasicMaterial({ ...offset, colorWrite: false }), flat = new THREE.MeshBasicMaterial({ ...offset, opacity, color: paint.color });
       for (let k = 1; k <= n; k += 1) { // link 0, the base, is there already
-        const solid = links[k] && links[k].children.solid && links[k].children.solid.children["<object>"];
+        const solid = links[k] && links[k].children.solid && links[k].children.solid.children["<object>"].object;
         if (!solid) continue;
-        const copy = new THREE.Group();
-        solid.object.traverse((part) => {
-          if (!part.isMesh) return;
-          part.updateMatrix();
-          passes.forEach((material, pass) => {
-            const mesh = new THREE.Mesh(pass === 2 ? coarsely(part.geometry) : part.geometry, material);
-            mesh.layers.set(pass === 2 ? QUICK_LAYER : FULL_LAYER);
+        const parts = [], copy = new THREE.Group();
+        solid.traverse((part) => part.isMesh && parts.push(part));
+        parts.forEach((part) => part.updateMatrix());
+        if (!merged.has(solid)) merged.set(solid, merge(parts));
+        [depth, paint, flat].forEach((material, pass) => {
+          for (const { geometry, matrix } of material === flat ? [{ geometry: merged.get(solid), matrix: solid.matrix }] : parts) {
+            const mesh = new THREE.Mesh(geometry, material);
+            mesh.layers.set(material === flat ? QUICK_LAYER : FULL_LAYER);
             mesh.matrixAutoUpdate = false;
-            mesh.matrix.copy(part.matrix);
+            mesh.matrix.copy(matrix);
             mesh.renderOrder = 10 + 4 * g + pass;
             copy.add(mesh);
-          });
+          }
         });
         viewer.set_object([...splitPath(path), String(k), "ghost"], copy);
       }

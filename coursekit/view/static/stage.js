@@ -206,6 +206,7 @@ function makeStage(MeshCat, pane, quality) {
       if (part.isLight && !part.shadow) part.castShadow = false; // meshcat switches it on for every root
       if (quality === "low" && part.material && !Array.isArray(part.material)) part.material = plainMaterial(THREE, part.material);
       for (const material of [].concat(part.material || [])) {
+        if (material.isShadowMaterial) part.layers.set(FULL_LAYER); // quick frames would show that of an earlier pose
         if (material.isMeshStandardMaterial) Object.assign(material, { envMapIntensity: 0.35, roughness: Math.max(material.roughness, SMOOTHEST) });
       }
     });
@@ -270,6 +271,7 @@ function makeStage(MeshCat, pane, quality) {
   stage.wake = () => {
     if (!request && !dead) request = requestAnimationFrame(draw);
   };
+  stage.now = () => draw(performance.now()); // and not in the browser's next frame
   viewer.set_dirty = function () {
     this.needs_render = true;
     stage.wake();

@@ -152,9 +152,10 @@ export default function () {
         else text.hidden = true;
         follower.compare();
         pose = floatsOf(model.get("pose"));
+        stage.moved();
+        if (late) Promise.resolve().then(stage.now); // the answer to a hand: once the rest of it is known, too
         clearTimeout(late);
         late = null;
-        stage.moved();
       };
       const onMotion = (at) => {
         poses = floatsOf(model.get("motion_poses"));
