@@ -40,17 +40,17 @@ function sharedRenderer(MeshCat) {
 // A picture of few pixels without smoothed edges, for frames that must be quick where there is no GPU: the page's
 // own canvas smooths and copies all its pixels, however few are drawn, which takes twice as long.
 function coarsePicture(THREE, context) {
-  let target = null, image = null;
+  const shared = page();
+  let image = null;
   return function draw(gl, scene, camera) {
     const { width, height } = context.canvas;
-    if (!target) {
-      target = new THREE.WebGLRenderTarget(width, height);
-      target.texture.encoding = THREE.sRGBEncoding;
+    if (!shared.coarse) { // for all views: one that is closed leaves nothing behind
+      shared.coarse = new THREE.WebGLRenderTarget(width, height);
+      shared.coarse.texture.encoding = THREE.sRGBEncoding;
     }
-    if (!image || image.width !== width || image.height !== height) {
-      target.setSize(width, height);
-      image = new ImageData(width, height);
-    }
+    const target = shared.coarse;
+    target.setSize(width, height);
+    if (!image || image.width !== width || image.height !== height) image = new ImageData(width, height);
     const bytes = new Uint8Array(4 * width * height);
     gl.setRenderTarget(target);
     gl.render(scene, camera);
