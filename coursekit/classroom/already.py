@@ -61,6 +61,9 @@ def _blocks(exercise: Exercise, masks: list) -> str:
         return ""
     if len(bad) == 1:
         detail = _entries_of(bad[0], masks)
+        if len(good) > 3:  # rather the one that is wrong than a list of all that are right
+            be = "are" if bad[0].plural else "is"
+            return f"{bad[0].text} {be} wrong{detail}; the other {len(good)} parts of the answer are right"
         return f"{_said(good)} right, {bad[0].text} {'are' if bad[0].plural else 'is'} not{detail}"
     return f"{_said(good)} right; not so {_joined([b.text for b in bad])}"
 

@@ -197,7 +197,8 @@ def _explain(exercise: Exercise, function: Callable, error: Exception, arguments
         return Attempt(fault="error", text=f"it does not take the arguments of {exercise.signature}")
     except ValueError:  # a function without a signature
         pass
-    text = f"{type(error).__name__}: {str(error).partition(chr(10))[0].strip()}"[:200]
+    said = re.sub(r", with gufunc signature \S+", "", str(error).partition("\n")[0].strip())
+    text = f"{type(error).__name__}: {said}"[:200]
     frame, at = _place(error)
     if frame is None:
         return Attempt(fault="error", text=f"it raises {text}")

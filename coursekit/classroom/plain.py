@@ -10,7 +10,7 @@ WORDS = {
     "solve1: Input operand": "in solve(A, b), b must have as many entries as A has rows",
     "could not be broadcast together": "entry by entry, shapes must be equal; x[:, None] is a column",
     "could not broadcast input": "what is stored must have the shape of the place it is stored in",
-    "is out of bounds": "numpy counts from 0: the last index is the size minus 1",
+    "is out of bounds": "numpy counts from 0: the last index is the size minus 1; examples differ in size",
     "values to unpack": "a, b = x takes the rows of x, one for each name; x.T has its columns as rows",
     "Cannot cast ufunc": "an array of whole numbers takes no decimals: x = x / 2, not x /= 2",
     "truth value of an array": "an array answers for each entry: (a <= x) & (x <= b), and np.all joins them",

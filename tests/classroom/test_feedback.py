@@ -14,6 +14,7 @@ import itertools
 import json
 import linecache
 import math
+import warnings
 from collections import Counter
 from functools import cache
 from pathlib import Path
@@ -116,6 +117,21 @@ T5 = "np.arctan2(np.hypot(R[0, 1], R[0, 2]), R[0, 0])"
 )
 def test_what_was_wrong_is_said_however_it_was_written(exercise, code, say):
     assert say in diagnosis({"exercise": exercise, "code": code}).say
+
+
+def test_what_an_edit_is_warned_of_is_not_told():
+    """An eigenvector made real by some edit: no line of numpy's about it stands in the notebook."""
+    code = """
+def quaternion(R):
+    w, V = np.linalg.eig(R)
+    k = np.real(V[:, np.argmin(np.abs(w - 1))])
+    angle = np.arccos(np.clip((np.trace(R) - 1) / 2, -1, 1))
+    return np.r_[np.cos(angle / 2), np.sin(angle / 2) * k]
+"""
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        assert not diagnosis({"exercise": "quaternion", "code": code}).right
+    assert not told, [str(warning.message) for warning in told]
 
 
 def test_a_place_that_tells_nothing_is_not_told():

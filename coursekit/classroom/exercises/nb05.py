@@ -370,6 +370,7 @@ EXERCISES = [
             Edge("for one step", lambda rng: draws.run(rng, steps=1)),
             Edge("for an arm with seven joints", lambda rng: draws.run(rng, "franka_panda")),
             Edge("where the arm is there already", lambda rng: draws.run(rng, off=0.0, steps=2)),
+            Edge("where the arm is nearly there", lambda rng: draws.run(rng, off=2e-4, steps=3)),
             Edge("for a k of 1", lambda rng: draws.run(rng, k=1.0)),
             Edge("from a singular start", draws.run_from_a_singular_start),
             Edge("for whole numbers", draws.run_of_whole_numbers),

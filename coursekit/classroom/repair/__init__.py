@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import ast
 import itertools
+import warnings
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -53,7 +54,8 @@ def repair(exercise: Exercise, function: Callable, examples: list, cost: int) ->
         search = _Search(exercise, function, examples, max(1, BUDGET // max(cost, 12)))
     except Unfit:
         return None
-    with np.errstate(all="ignore"):
+    with np.errstate(all="ignore"), warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # what an edit is warned of is not the student's matter
         hits = search.hits()
     if not hits:
         return None

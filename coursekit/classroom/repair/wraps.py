@@ -30,7 +30,7 @@ _DONE: tuple[tuple[str, Callable], ...] = (
     ("one_minus", lambda x: 1 - x),
     ("upside_down", lambda x: 1 / x),
     ("millimetres", lambda x: x / 1000),
-    ("millimetres", lambda x: 1000 * x),
+    ("millimetres", lambda x: _millimetres(x)),
     ("whole_numbers", lambda x: np.asarray(x, float)),
     ("turn", lambda x: (x + np.pi) % (2 * np.pi) - np.pi),
     ("halves", lambda x: np.roll(x, 3, axis=0)),
@@ -50,6 +50,12 @@ _JOINED: tuple[Callable, ...] = (
 )
 
 
+def _millimetres(x):
+    """1000 x, but not of quarter turns: a thousand of them are the angle 0, and no length."""
+    quarters = np.divide(x, np.pi / 2)
+    return x if np.any(quarters) and np.all(quarters == np.rint(quarters)) else 1000 * x
+
+
 def wraps(ordinary: Callable, variables: list[str], node: ast.expr) -> Iterator[Variant]:
     """Something done to the value of a node, or a variable joined to it."""
     if isinstance(node, ast.List | ast.Tuple):  # -[1, 2] is none
@@ -58,7 +64,8 @@ def wraps(ordinary: Callable, variables: list[str], node: ast.expr) -> Iterator[
         yield Variant(kind, _done(ordinary, do), rank=1 if kind in ("sign", "transposed", "inverse") else 2)
     inside = {n.id for n in ast.walk(node) if isinstance(n, ast.Name)}
     for name in variables:
-        for join in _JOINED:
+        itself = isinstance(node, ast.Name) and node.id == name  # x - x and x / x are numbers, no repair
+        for join in _JOINED if not itself else _JOINED[2:5]:
             rank = 3 if name in inside else 2
             yield Variant("missing", _joined(ordinary, join, variable(name)), what=name, rank=rank)
     for name in variables:
