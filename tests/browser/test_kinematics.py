@@ -91,6 +91,16 @@ def link(page, path):
     return np.reshape(columns, (4, 4)).T
 
 
+def assert_link_comes_to(page, path, expected):
+    """In one of the next frames, each of which may take a second on a machine that is busy."""
+    for _ in range(100):
+        found = link(page, path)
+        if np.allclose(found, expected, rtol=0, atol=1e-12):
+            break
+        page.wait_for_timeout(200)
+    np.testing.assert_allclose(found, expected, atol=1e-12)
+
+
 @pytest.mark.parametrize("name", ["explore", "explore_screws", "explore_singularities", "explore_jacobians"])
 def test_a_page_without_a_kernel_follows_its_sliders(offline, name):
     panel = getattr(view, name)()
@@ -100,10 +110,8 @@ def test_a_page_without_a_kernel_follows_its_sliders(offline, name):
     assert sliders.count() == (1 if name == "explore_screws" else robot.n)
     joint = 1 if name == "explore_screws" else 0
     sliders.nth(0).press("PageUp")
-    page.wait_for_function("(old) => document.getElementById('words').textContent !== old", arg="")
-    page.wait_for_timeout(500)
     theta = start + np.radians(10) * np.eye(robot.n)[joint]
-    np.testing.assert_allclose(link(page, f"/ck/robot/{robot.n}"), robot.displacements(theta)[-1], atol=1e-12)
+    assert_link_comes_to(page, f"/ck/robot/{robot.n}", robot.displacements(theta)[-1])
     scene = view.Scene()
     scene.robot(robot, theta)
     assert page.inner_text("#words") == scene.text()
@@ -142,8 +150,7 @@ def test_a_motion_moves_the_sliders_of_a_page_without_a_kernel(offline):
     page = offline(panel)
     page.locator(".ck-scrub").focus()
     page.keyboard.press("End")
-    page.wait_for_timeout(500)
-    np.testing.assert_allclose(link(page, "/ck/robot/6"), KR6.displacements(thetas[-1])[-1], atol=1e-12)
+    assert_link_comes_to(page, "/ck/robot/6", KR6.displacements(thetas[-1])[-1])
     shown = page.eval_on_selector_all(
         "[role=slider]", "all => all.map((s) => +s.getAttribute('aria-valuenow'))"
     )
@@ -152,7 +159,6 @@ def test_a_motion_moves_the_sliders_of_a_page_without_a_kernel(offline):
     np.testing.assert_allclose(numbers[:6], np.degrees(thetas[-1]), atol=0.051)
 
     page.locator("[role=slider]").first.press("PageUp")
-    page.wait_for_timeout(500)
-    assert not page.locator(".ck-player").is_visible()
     theta = thetas[-1] + np.radians([10, 0, 0, 0, 0, 0])
-    np.testing.assert_allclose(link(page, "/ck/robot/6"), KR6.displacements(theta)[-1], atol=1e-12)
+    assert_link_comes_to(page, "/ck/robot/6", KR6.displacements(theta)[-1])
+    assert not page.locator(".ck-player").is_visible()

@@ -94,7 +94,8 @@ def test_a_kernel_that_does_not_answer_is_told_and_its_answer_ends_that(notebook
     notebook.wait_view()
     said = notebook.page.locator(".ck-silence")
     notebook.page.locator("[role=slider]").first.press("PageUp")
-    notebook.page.wait_for_timeout(3500)
+    notebook.settle()
+    notebook.page.wait_for_timeout(3000)
     assert said.inner_text() == "", "it has answered"
     notebook.page.evaluate(
         "() => { const n = window.jupyterapp.shell.currentWidget;"
@@ -158,7 +159,11 @@ def test_a_view_that_was_closed_asks_for_no_more_pictures(open_page, lab):
     notebook.page.wait_for_timeout(1500)
     notebook.kernel("asked.clear()")
     notebook.page.locator("[role=slider]").first.press("PageUp")
-    notebook.page.wait_for_timeout(2500)
+    for _ in range(100):
+        if notebook.kernel("asked.count('need_png')"):
+            break
+        notebook.page.wait_for_timeout(200)
+    notebook.page.wait_for_timeout(1000)  # a second one would come by now
     assert notebook.kernel("asked.count('need_png')") == 1
 
 
