@@ -232,6 +232,15 @@ def run_from_a_singular_start(rng):
     return robot, T_sd, np.zeros(6), k, 3
 
 
+def run_past_half_a_turn(rng):
+    """Joint 4 ends beyond half a turn, and its angle says so."""
+    from coursekit import robots
+
+    robot, _, theta, *_ = run(rng, "kuka_kr6")
+    theta[3] = np.pi - 0.05
+    return robot, robots.kuka_kr6().fk(theta + 0.15), theta, 0.1, 4
+
+
 def run_of_whole_numbers(rng):
     robot, T_sd, *_ = run(rng, "kuka_kr6")
     return robot, T_sd, rng.permutation([0, 1, -1, 0, 1, -1]), 1, 2

@@ -373,6 +373,7 @@ EXERCISES = [
             Edge("where the arm is nearly there", lambda rng: draws.run(rng, off=2e-4, steps=3)),
             Edge("for a k of 1", lambda rng: draws.run(rng, k=1.0)),
             Edge("from a singular start", draws.run_from_a_singular_start),
+            Edge("where a joint passes half a turn", draws.run_past_half_a_turn),
             Edge("for whole numbers", draws.run_of_whole_numbers),
         ),
         residual=residuals.target_missed,
