@@ -154,6 +154,14 @@ def test_axe_finds_nothing(opened, theme):
     assert found == []
 
 
+# Whether a handle that stands where a button over the picture is can be taken hold of.
+ON_TOP = """() => {
+    const place = (which) => document.querySelector(which).getBoundingClientRect();
+    const [button, pane] = [place(".ck-views button"), place(".ck-pane")];
+    const handle = document.querySelector(".ck-handle");
+    handle.style.transform = `translate(${button.left - pane.left}px, ${button.top - pane.top}px)`;
+    return document.elementFromPoint(button.left + 12, button.top + 12) === handle;
+}"""
 # Letters of the plot, once it is drawn for the room that there is.
 LETTERS = """() => {
     const [plot, text] = [".ck-plot", ".ck-plot svg"].map((which) => document.querySelector(which));
@@ -179,6 +187,7 @@ def test_on_a_narrow_screen_the_small_figures_stand_below_the_picture_and_above_
     for part in (".ck-viewer", ".ck-figures", ".ck-column"):
         box = page.locator(part).bounding_box()
         tops += [box["y"], box["y"] + box["height"]]
+    assert page.evaluate(ON_TOP), "a handle, and not the button under it"
     assert tops == sorted(tops) and tops[-1] <= outer["y"] + outer["height"]
     last = page.locator(".ck-one").last
     last.focus()  # the row scrolls to it
