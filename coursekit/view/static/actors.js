@@ -80,8 +80,7 @@ function makeGhosts(THREE, viewer) {
         const solid = links[k] && links[k].children.solid && links[k].children.solid.children["<object>"].object;
         if (!solid) continue;
         const parts = [], copy = new THREE.Group();
-        solid.traverse((part) => part.isMesh && parts.push(part));
-        parts.forEach((part) => part.updateMatrix());
+        solid.traverse((part) => part.isMesh && parts.push(part) && part.updateMatrix());
         if (!merged.has(solid)) merged.set(solid, merge(parts));
         [depth, paint, flat].forEach((material, pass) => {
           for (const { geometry, matrix } of material === flat ? [{ geometry: merged.get(solid), matrix: solid.matrix }] : parts) {

@@ -234,7 +234,7 @@ function makeStage(MeshCat, pane, quality) {
 
   // Nothing is drawn before the light is there: once for all views of the page.
   const isDark = () => {
-    shared.lit = shared.lit || studioLight(THREE).then((light) => {
+    shared.lit = shared.lit || shared.light.then((light) => {
       shared.studioLight = light;
       for (const other of shared.views) other.light();
       sharedRenderer(MeshCat).compile(viewer.scene, viewer.camera); // not in the task of the first frame
