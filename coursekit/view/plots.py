@@ -144,13 +144,10 @@ class Plot(anywidget.AnyWidget):
         from matplotlib.figure import Figure
 
         wide, high = self.room / 96, self._size[1]
-        size = (
-            wide,
-            max(high * wide / self._size[0], min(high, LOW)),
-        )  # letters take their share of the height
+        lower = max(high * wide / self._size[0], min(high, LOW))  # letters take their share of the height
         written, nothing = io.StringIO(), dict.fromkeys(("Date", "Creator", "Format", "Type"))
         with rc_context(STYLE):
-            self._figure = Figure(figsize=size, layout="constrained")
+            self._figure = Figure(figsize=(wide, lower), layout="constrained")
             FigureCanvasSVG(self._figure)
             self.draw(self._figure, values)
             self._figure.savefig(written, format="svg", metadata=nothing)
