@@ -24,6 +24,7 @@ from coursekit.kinematics.robot import Robot
 STATIC = Path(__file__).parent / "static"
 SCRIPTS = ["html", "numbers", "parts", "controls"]
 SCRIPT = "\n".join((STATIC / f"{name}.js").read_text("utf-8") for name in SCRIPTS)
+STYLE = (STATIC / "controls.css").read_text("utf-8")  # a path would be watched, and hold every control
 _SHOWN_PER_SI = {"deg": 180 / np.pi, "mm": 1000.0}  # every other unit is shown as it is
 
 
@@ -31,7 +32,7 @@ class Control(anywidget.AnyWidget):
     """What all controls share: a name, a label and a stable one-line repr."""
 
     _esm = SCRIPT
-    _css = STATIC / "controls.css"
+    _css = STYLE
     kind = traitlets.Unicode().tag(sync=True)
     label = traitlets.Unicode().tag(sync=True)
     word = traitlets.Unicode().tag(sync=True)  # by which the picture knows what it means, see pointing.py

@@ -65,7 +65,7 @@ class Plot(anywidget.AnyWidget):
     """
 
     _esm = controls.SCRIPT
-    _css = controls.STATIC / "controls.css"
+    _css = controls.STYLE
     kind = traitlets.Unicode("plot").tag(sync=True)
     svg = traitlets.Unicode().tag(sync=True)
     alt = traitlets.Unicode().tag(sync=True)

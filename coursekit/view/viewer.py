@@ -56,7 +56,7 @@ class Viewer(anywidget.AnyWidget):
     """
 
     _esm = script()
-    _css = STATIC / "viewer.css"
+    _css = (STATIC / "viewer.css").read_text("utf-8")  # a path would be watched, and hold every viewer
     _bundle_was_sent = False  # by any Viewer of this kernel
 
     commands = traitlets.Dict().tag(sync=True, to_json=lambda _value, viewer: dict(viewer.messages.packed))

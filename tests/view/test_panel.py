@@ -1,5 +1,8 @@
 """Panels and their controls without a browser."""
 
+import gc
+import weakref
+
 import ipywidgets
 import numpy as np
 import pytest
@@ -192,6 +195,16 @@ def test_close_leaves_nothing():
     before = open_models()
     small_panel(below=[Plot(lambda figure, values: None, "Nothing.")]).close()
     assert open_models() == before
+
+
+@pytest.mark.parametrize("name", [name for name in view.__all__ if name.startswith("explore")])
+def test_a_closed_explorer_is_forgotten(name):
+    panel = getattr(view, name)()
+    kept = [weakref.ref(widget) for widget in (panel, panel.viewer, *panel._controls.values())]
+    panel.close()
+    del panel
+    gc.collect()
+    assert [one() for one in kept if one() is not None] == []
 
 
 def test_reset_goes_back_and_keeps_the_chosen_robot(made):
