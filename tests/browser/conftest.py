@@ -16,9 +16,12 @@ def lab(browser, tmp_path_factory):
     server.close()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def open_page(lab, browser):
-    """Function that opens a fresh browser page: `open_page().open(lab.write("name.ipynb", "cell", ...))`."""
+    """Function that opens a fresh browser page: `open_page().open(lab.write("name.ipynb", "cell", ...))`.
+
+    It is closed at the end of the file: a page that stays asks its server, and draws, to the end of the run.
+    """
     contexts = []
 
     def new(**options):
