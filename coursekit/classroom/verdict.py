@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike
 from . import compare
 from .already import not_a_pose, what_is_right
 from .attempt import Attempt, line_of_nan
+from .attempt import attempt as call
 from .exercise import NONE, Exercise, misshapen, thaw
 from .library import permitted
 from .plain import in_plain_words
@@ -99,7 +100,7 @@ def verdict(
     answers = [attempt.parts for attempt in attempts]
     found = _cannot_be_judged(exercise, examples, attempts)
     good = [not found and example.agrees(parts) for example, parts in zip(examples, answers, strict=True)]
-    if function and not all(good) and (text := _another_word(exercise, function, examples)):
+    if function and not all(good) and (text := _another_word(exercise, function, examples, attempts)):
         return Verdict("named", text, step="word", example=good.index(False))
     if found:
         hint = None if found.step == "changed" else _named(exercise, examples, answers)
@@ -260,18 +261,32 @@ def _ignored(exercise: Exercise, function: Callable) -> str:
     return ""
 
 
-def _another_word(exercise: Exercise, function: Callable, examples: list[Example]) -> str:
-    """ "kind is "revolute" or "prismatic", ...": the code asks for words that never come, as "R" and "P"."""
+def _another_word(exercise: Exercise, function: Callable, examples: list[Example], attempts: list) -> str:
+    """ "kind is "revolute" or "prismatic", ...": the code asks for words that never come, as "R" and "P".
+
+    Told only of a word with which an answer that is wrong becomes right.
+    """
     code = getattr(function, "__code__", None)
     if not isinstance(code, CodeType):
         return ""
     mine = [c for c in code.co_consts if isinstance(c, str) and c and c != function.__doc__]
+    wrong = [e for e, before in zip(examples, attempts, strict=True) if not _is_right(exercise, e, before)]
     for k, name in enumerate(exercise.arguments):
         words = list(dict.fromkeys(str(e.arguments[k]) for e in examples if isinstance(e.arguments[k], str)))
-        if words and mine and not any(part in word for part in mine for word in words):
-            known = " or ".join(f'"{word}"' for word in words)
-            return f'`{name}` is {known}, letter for letter: "{mine[0]}" in your code is neither'
+        if not words or any(part in word for part in mine for word in words):
+            continue
+        for word in mine:
+            for example in wrong:
+                given = [*example.arguments[:k], word, *example.arguments[k + 1 :]]
+                if _is_right(exercise, example, call(exercise, function, given)):
+                    known = " or ".join(f'"{w}"' for w in words)
+                    return f'`{name}` is {known}, letter for letter: "{word}" in your code is neither'
     return ""
+
+
+def _is_right(exercise: Exercise, example: Example, tried: Attempt) -> bool:
+    whole = tried.parts and not tried.fault and not misshapen(exercise, list(tried.parts))
+    return bool(whole) and example.agrees(tried.parts)
 
 
 def _holds(value: object, name: str) -> bool:

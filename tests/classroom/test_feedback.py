@@ -119,6 +119,21 @@ def test_what_was_wrong_is_said_however_it_was_written(exercise, code, say):
     assert say in diagnosis({"exercise": exercise, "code": code}).say
 
 
+@pytest.mark.parametrize(
+    "body",
+    [
+        "w = np.einsum('i->i', w)\n    return np.r_[w, -np.cross(w, q)]",
+        "if kind.upper() == 'REVOLUTE': return np.r_[w, np.cross(w, q)]\n    return np.r_[np.zeros(3), w]",
+        "w = np.einsum('i->i', w)\n    return np.r_[w, -np.cross(w, q)] if w[0] > 0 else no",
+    ],
+    ids=["no word at all", "a right one and a wrong sign", "an error"],
+)
+def test_a_word_of_another_use_is_not_called_wrong(body):
+    code = f"def joint_screw(kind, w, q):\n    {body}\n"
+    told = diagnosis({"exercise": "joint_screw", "code": code})
+    assert not told.right and "letter for letter" not in told.say
+
+
 def test_what_an_edit_is_warned_of_is_not_told():
     """An eigenvector made real by some edit: no line of numpy's about it stands in the notebook."""
     code = """

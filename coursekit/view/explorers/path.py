@@ -163,7 +163,7 @@ class _Path(yours.Path, Explorer):
         joint, size = self.limit.joint[k], self.scene.size
         use = np.abs(self._use(self.limit))
         middle = (self.points[1:] + self.points[:-1]) / 2  # of each step
-        full = middle[use[:, joint] > 1 - 1e-9]  # two where it is symmetric
+        full = middle[self._at_bound()]
         others = {
             f"there joint {j + 1} is fastest": middle[use[:, j].argmax()]
             for j in range(self.robot.n)
@@ -184,6 +184,10 @@ class _Path(yours.Path, Explorer):
             self.points,
             show=lambda right: self._rest(np.linalg.norm(middle - right, axis=1).argmin()),
         )
+
+    def _at_bound(self):
+        """The steps in which the joint that sets the speed is at its bound: two where it is symmetric."""
+        return np.flatnonzero(np.abs(self._use(self.limit)[:, self.limit.joint[self.branch]]) > 1 - 1e-9)
 
     def _rest(self, place):
         self.panel.rest_at(np.abs(self.shown - place).argmin())
@@ -207,8 +211,9 @@ class _Path(yours.Path, Explorer):
     def words(self, values):
         k, theta = self.branch, self.q[self.branch, self.place]
         joint = self.limit.joint[k]
-        full = np.flatnonzero(np.abs(self._use(self.limit)[:, joint]) > 1 - 1e-9)  # two where it is symmetric
-        where = "" if self.asking else " " + " and ".join(f"after point {i + 1}" for i in full[:2])
+        where = (
+            "" if self.asking else " " + " and ".join(f"after point {i + 1}" for i in self._at_bound()[:2])
+        )
         inside = "inside" if self.robot.within_limits(theta) else "outside"
         speed, bound = text.number(self.limit.speed[k], 4), text.number(self.bounds[joint])
         kinds = self.robot.joint_types
