@@ -24,7 +24,8 @@ from .shapes import Mesh
 from .stage import grid_lines
 
 STOCK = ("SpotLight", "PointLightNegativeX", "PointLightPositiveX", "AmbientLight", "FillLight")
-_FINISH = {"body": (0.45, 0.0), "dark": (0.55, 0.1), "metal": (0.35, 0.5)}  # roughness, metalness
+# roughness, metalness, and a glow without which dark paint is lost on a dark page
+_FINISH = {"body": (0.4, 0.0, 0.0), "dark": (0.5, 0.0, 0.6), "metal": (0.35, 0.2, 0.0)}
 
 
 @functools.cache
@@ -260,11 +261,11 @@ def _geometry(part):
 
 def _material(part):
     value = linear(color(part.color))
-    rough, metal = _FINISH.get(part.color, (0.5, 0.0))
+    rough, metal, glow = _FINISH.get(part.color, (0.5, 0.0, 0.0))
     material = {"type": "MeshStandardMaterial", "color": value, "roughness": rough}
     material |= {"metalness": metal, "side": 0}
-    if part.glow:
-        material |= {"emissive": value, "emissiveIntensity": part.glow}
+    if part.glow or glow:
+        material |= {"emissive": value, "emissiveIntensity": max(part.glow, glow)}
     if part.opacity < 1:
         # seen from both sides, and never in the way of what is drawn later
         material |= {"transparent": True, "opacity": part.opacity, "depthWrite": False, "side": 2}
@@ -306,7 +307,7 @@ def _key_light(size, floor):
 
 
 def _sky():
-    light = {"type": "HemisphereLight", "color": 0xF3F7FF, "groundColor": 0xB9B2A8, "intensity": 0.2}
+    light = {"type": "HemisphereLight", "color": 0xF3F7FF, "groundColor": 0x8A8680, "intensity": 0.7}
     # its place is its direction; the default would be sideways
     return document({**light, "matrix": _at(0, 0, 1)})
 

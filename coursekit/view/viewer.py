@@ -30,7 +30,7 @@ from coursekit.view.scene import Scene
 from coursekit.view.target import PoseSliders
 
 STATIC = Path(__file__).parent / "static"
-SCRIPTS = ["html", "bundle", "light", "stage", "actors", "player"]
+SCRIPTS = ["html", "bundle", "stage", "actors", "player"]
 SCRIPTS += ["kinematics", "follow", "handles", "point", "viewer"]
 
 
@@ -50,7 +50,7 @@ class Viewer(anywidget.AnyWidget):
         Pixels.
     quality : {"auto", "high", "low"}
         "auto" draws half the pixels while something moves, if frames are slow; "low" also leaves out shadows
-        and reflections (for computers without a graphics processor).
+        (for computers without a graphics processor).
     lock : context manager, optional
         Held while a picture is drawn that the page asks for: nothing may change the scene meanwhile.
     """

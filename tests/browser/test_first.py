@@ -1,6 +1,5 @@
 """The first explorer of a page: a picture at once, and nothing that the page has to wait for."""
 
-import numpy as np
 import pytest
 
 pytestmark = pytest.mark.browser
@@ -24,6 +23,11 @@ LISTEN = """() => {
 }"""
 STORED = """() => window.jupyterapp.shell.currentWidget.content.widgets.at(-1).model.outputs.toJSON()
     .map((output) => output.data?.["image/png"]).find((picture) => picture).replace(/\\s/g, "")"""
+RUN_LAST = """() => {
+    const notebook = window.jupyterapp.shell.currentWidget.content;
+    notebook.activeCellIndex = notebook.widgets.length - 1;
+    window.jupyterapp.commands.execute("notebook:run-cell");
+}"""
 SHOWN = """async () => {
     const bytes = new Uint8Array(await (await covers[1]).arrayBuffer());
     return [covers.length / 2, btoa(String.fromCharCode(...bytes))];
@@ -44,59 +48,43 @@ def test_the_stored_picture_is_there_until_the_first_frame_and_before_the_plots(
     assert notebook.errors == []
 
 
-# What white rough metal reflects that faces each of these directions, in the light of the room alone.
-REFLECTED = """(directions) => {
-    const { MeshCat, renderer, studioLight } = document.querySelector(".ck-viewer").coursekit.page;
-    const THREE = MeshCat.THREE, scene = new THREE.Scene();
-    const camera = new THREE.PerspectiveCamera(5, 1, 0.1, 10);
-    scene.environment = studioLight;
-    const paint = new THREE.MeshStandardMaterial({ metalness: 1, roughness: 1, envMapIntensity: 0.15 });
-    const sheet = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), paint);
-    scene.add(sheet);
-    const target = new THREE.WebGLRenderTarget(4, 4), pixel = new Uint8Array(4);
-    const seen = directions.map((direction) => {
-      sheet.lookAt(...direction);
-      camera.position.set(...direction);
-      camera.up.set(direction[1] ? 1 : 0, direction[1] ? 0 : 1, 0);
-      camera.lookAt(0, 0, 0);
-      renderer.setRenderTarget(target);
-      renderer.render(scene, camera);
-      renderer.readRenderTargetPixels(target, 1, 1, 1, 1, pixel);
-      return [...pixel].slice(0, 3);
-    });
-    renderer.setRenderTarget(null);
-    return seen;
-}"""
+PAGE = 'globalThis[Symbol.for("coursekit.page.1")]'
+# Whether something was drawn while no view was in the page.
+UNSEEN = """
+window.unseen = 0;
+const { drawElements } = WebGL2RenderingContext.prototype;
+WebGL2RenderingContext.prototype.drawElements = function (...args) {
+  if (!document.querySelector(".ck-pane")) unseen += 1;
+  return drawElements.apply(this, args);
+};
+"""
 
 
-def test_rough_metal_reflects_the_room(notebook, lab):
-    """The light is computed in the layout that three reads: here from the room itself, with y up."""
-    notebook.open(lab.write("room.ipynb", "from coursekit import view\nview.explore()"))
-    notebook.run_all()
+def test_the_first_stage_of_a_page_is_ready_before_its_view(notebook, lab):
+    """It is thrown away where the view never comes, or where the scene has changed until then."""
+    page = notebook.page
+    page.add_init_script(UNSEEN)
+    notebook.open(lab.write("early.ipynb", "from coursekit import view\nopened = []", "opened[-1]"))
+    notebook.kernel("exec('import numpy as np; from coursekit import view; opened = [view.explore()]')")
+    page.wait_for_function("unseen > 50")
+    assert page.evaluate(f"{PAGE}.views.size") == 1
+    notebook.kernel("opened.pop().close()")
+    page.wait_for_function(f"{PAGE}.views.size === 0")
+
+    notebook.kernel("opened.append(view.explore())")
+    page.wait_for_function(f"{PAGE}.views.size === 1")
+    notebook.kernel("(opened[-1].scene.frame('/ck/late', np.eye(4), 'late'), opened[-1].viewer.sync())[1]")
+    page.wait_for_function(f"{PAGE}.views.size === 0")
+    page.evaluate(RUN_LAST)
     notebook.wait_view()
-    directions = np.concatenate([np.eye(3), -np.eye(3)])
-    found = np.array(notebook.page.evaluate(REFLECTED, directions.tolist()), float)
-
-    rng = np.random.default_rng(1)
-    ways = rng.normal(size=(400_000, 3))
-    ways /= np.linalg.norm(ways, axis=1)[:, None]
-    walls = np.array([0x8D, 0x92, 0x99]) / 255
-    light = np.tile(walls, (len(ways), 1))
-    for bright, axis, at, (u, low_u, high_u), (v, low_v, high_v) in (
-        (9.0, 1, 2.9, (0, -2.5, 2.5), (2, -2.5, 2.5)),
-        (5.0, 0, -4.9, (1, -0.5, 2.1), (2, -1, 3)),
-        (3.5, 2, 4.9, (0, 1, 5), (1, -0.2, 2.2)),
-        (0.25, 1, -2.95, (0, -4.5, 4.5), (2, -4.5, 4.5)),
-    ):
-        with np.errstate(divide="ignore"):
-            hit = ways * (at / ways[:, axis])[:, None]
-        inside = (at * ways[:, axis] > 0) & (hit[:, u] > low_u) & (hit[:, u] < high_u)
-        light[inside & (hit[:, v] > low_v) & (hit[:, v] < high_v)] = bright
-    weight = np.exp((directions @ ways.T - 1) / 0.583**2)
-    expected = weight @ light / weight.sum(axis=1, keepdims=True)
-    scale = (found * expected).sum() / (expected**2).sum()
-    assert scale > 10 and found.max() < 255
-    np.testing.assert_allclose(found / scale, expected, atol=0.05 * expected.max())
+    drawn = page.evaluate(
+        """() => {
+             const { viewer } = document.querySelector(".ck-viewer").coursekit;
+             return Object.keys(viewer.scene_tree.find(["ck"]).children);
+           }"""
+    )
+    assert {"robot", "late"} <= set(drawn)
+    assert page.evaluate(f"{PAGE}.views.size") == 1
     assert notebook.errors == []
 
 

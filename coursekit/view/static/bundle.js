@@ -7,8 +7,6 @@ function page() {
   if (!globalThis[key]) {
     const shared = { views: new Set(), evaluated: 0, asked: 0, busy: false };
     shared.meshcat = new Promise((resolve, reject) => Object.assign(shared, { resolve, reject }));
-    shared.light = shared.meshcat.then(({ THREE }) => studioLight(THREE)); // at once, and not when there is a view
-    shared.light.catch(() => {}); // each view reports the failure itself
     globalThis[key] = shared;
   }
   return globalThis[key];

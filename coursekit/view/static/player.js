@@ -25,14 +25,13 @@ function makePlayer({ show, report, wake }) {
     scrub.setAttribute("aria-valuetext", `pose ${k + 1} of ${motion.frames}`);
     count.textContent = `${k + 1} / ${motion.frames}`;
   };
-  const go = (k) => {
-    standAt(k);
-    show(k);
-    report(k, playing);
-  };
   const follow = (k) => {
     standAt(k);
     show(k);
+  };
+  const go = (k) => {
+    follow(k);
+    report(k, playing);
   };
   const mark = (on) => {
     playing = on;

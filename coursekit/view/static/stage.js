@@ -16,7 +16,7 @@ function sharedRenderer(MeshCat) {
   shared.contextLost = false;
   const redrawAll = () => {
     shared.contextLost = false;
-    for (const stage of shared.views) stage.light();
+    for (const stage of shared.views) stage.moved();
   };
   renderer.domElement.addEventListener("webglcontextlost", (event) => {
     event.preventDefault(); // without this the browser never gives the context back
@@ -205,10 +205,7 @@ function makeStage(MeshCat, pane, quality) {
     object.traverse((part) => {
       if (part.isLight && !part.shadow) part.castShadow = false; // meshcat switches it on for every root
       if (quality === "low" && part.material && !Array.isArray(part.material)) part.material = plainMaterial(THREE, part.material);
-      for (const material of [].concat(part.material || [])) {
-        if (material.isShadowMaterial) part.layers.set(FULL_LAYER); // quick frames would show that of an earlier pose
-        if (material.isMeshStandardMaterial) Object.assign(material, { envMapIntensity: 0.35, roughness: Math.max(material.roughness, SMOOTHEST) });
-      }
+      if (part.material && part.material.isShadowMaterial) part.layers.set(FULL_LAYER); // quick frames would show that of an earlier pose
     });
     meshcatViewer.set_object.call(this, path, object);
   };
@@ -232,14 +229,9 @@ function makeStage(MeshCat, pane, quality) {
   };
   const stage = { viewer, renderer, beforeFrame: [], afterFrame: [], frames: 0, playing: () => false, resized() {} };
 
-  // Nothing is drawn before the light is there: once for all views of the page.
-  const isDark = () => {
-    shared.lit = shared.lit || shared.light.then((light) => {
-      shared.studioLight = light;
-      for (const other of shared.views) other.light();
-      sharedRenderer(MeshCat).compile(viewer.scene, viewer.camera); // not in the task of the first frame
-    });
-    return !shared.studioLight;
+  const compile = () => {
+    shared.compiled = true;
+    sharedRenderer(MeshCat).compile(viewer.scene, viewer.camera);
   };
   const draw = async (now) => {
     request = 0;
@@ -247,7 +239,11 @@ function makeStage(MeshCat, pane, quality) {
     if (shared.drawing) return stage.wake(); // the one renderer has a frame of ours or of another view to finish
     for (const act of stage.beforeFrame) act(now);
     // a cell out of sight is taken out of the page: it gets the pose, and is drawn when it comes back
-    if (viewer.needs_render && pane.isConnected && !shared.contextLost && !isDark()) {
+    if (viewer.needs_render && pane.isConnected && !shared.contextLost) {
+      if (!shared.compiled) {
+        compile(); // not in the task of the first frame
+        return stage.wake();
+      }
       const wanted = levelNow();
       renderer.coarseness = wanted;
       const begun = performance.now();
@@ -262,11 +258,21 @@ function makeStage(MeshCat, pane, quality) {
       }
       learn(wanted, performance.now() - begun);
       stage.frames += 1;
+      shared.drawn = true;
       clearTimeout(sharpen);
       if (wanted < 1) sharpen = setTimeout(() => viewer.set_dirty(), 300); // full sharpness once it rests
       for (const act of stage.afterFrame) act(now);
     }
     if (stage.playing()) stage.wake();
+  };
+  // Draw once where nobody sees it: what a picture needs is compiled then.
+  stage.rehearse = async () => {
+    compile();
+    await pause(0); // each step is a task of its own
+    if (dead || pane.isConnected) return;
+    renderer.setSize(64, 48);
+    viewer.render();
+    stage.moved();
   };
   stage.wake = () => {
     if (!request && !dead) request = requestAnimationFrame(draw);
@@ -281,10 +287,6 @@ function makeStage(MeshCat, pane, quality) {
     renderer.shadowsStale = true;
     lastMotion = performance.now();
     viewer.set_dirty();
-  };
-  stage.light = () => {
-    if (quality !== "low") viewer.scene.environment = shared.studioLight || null;
-    stage.moved();
   };
   viewer.controls.addEventListener("change", () => (lastMotion = performance.now()));
 
@@ -329,6 +331,6 @@ function makeStage(MeshCat, pane, quality) {
     pane.replaceChildren();
   };
   shared.views.add(stage);
-  stage.light();
+  stage.moved();
   return stage;
 }

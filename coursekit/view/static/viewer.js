@@ -5,6 +5,7 @@ export default function () {
   const commands = new Map(); // key -> bytes of one meshcat command: the whole scene, for views that come later
   const views = new Set();
   let first = null; // the kernel's picture of the scene, which comes before any view
+  let early = null; // {stage, pane} made while the kernel still paints that picture
 
   // From the kernel: commands that are new or changed, and keys that are gone.
   function update(content, buffers) {
@@ -12,6 +13,7 @@ export default function () {
     if (content.type === "commands") {
       content.gone.forEach((key) => commands.delete(key));
       content.keys.forEach((key, i) => commands.set(key, bytesOf(buffers[i]).slice()));
+      dropEarly();
       for (const view of views) view.change(content.delete, buffers.map(bytesOf));
     }
     if (content.type === "rest") for (const view of views) view.rest(content.frame);
@@ -19,33 +21,50 @@ export default function () {
     if (content.type === "png") for (const view of views) view.picture(bytesOf(buffers[0]));
   }
 
+  // The first stage of a page is slow without a GPU: it is made, and its shaders are compiled, before it is asked for.
+  async function rehearse(model) {
+    const MeshCat = await page().meshcat;
+    await pause(0);
+    if (page().drawn || page().views.size || views.size || !commands.size) return;
+    const pane = makePane(), stage = makeStage(MeshCat, pane, model.get("quality"));
+    early = { pane, stage };
+    sendAll(stage.viewer, commands.values());
+    await pause(0);
+    if (early) stage.rehearse();
+  }
+
+  function dropEarly() {
+    if (early) early.stage.destroy();
+    early = null;
+  }
+
   return {
     initialize({ model }) {
       for (const [key, data] of Object.entries(model.get("commands"))) commands.set(key, bytesOf(data));
       model.on("msg:custom", (content, buffers) => update(content, buffers));
+      model.on("change:quality", dropEarly);
       askForBundle(model);
+      rehearse(model).catch(() => {}); // a view will say what is wrong
       return () => {
+        dropEarly();
         commands.clear();
         for (const empty of [{}, {}]) model.set("commands", empty); // twice: a model keeps what it was before, too
       };
     },
 
     async render({ model, el, signal }) {
-      const pane = element("div", { class: "ck-pane", tabindex: 0, role: "group", "aria-roledescription": "3D view",
-        "data-lm-suppress-shortcuts": "true", title: "drag: turn (on a link: its joint), right drag: move, wheel after a click: zoom; keys: arrows, + and -, Home" });
+      const begun = early, pane = begun ? begun.pane : makePane();
+      early = null;
       const buttons = element("div", { ...own, class: "ck-views", role: "group", "aria-label": "views" });
-      const box = element("div", { class: "ck-viewer" }, pane, buttons);
+      const box = pane.parentElement;
+      box.append(buttons);
       const text = element("div", { class: "ck-text", "aria-live": "polite" });
       const silence = element("div", { class: "ck-silence", role: "status" });
       keepKeys(buttons);
-      pane.addEventListener("contextmenu", (event) => { // the right button moves the picture
-        event.preventDefault();
-        event.stopPropagation();
-      });
       box.style.height = `${model.get("height")}px`;
       const wait = element("div", { class: "ck-first" }, element("p", { class: "ck-wait" }, "The 3D view is on its way …"));
       box.append(wait);
-      const uncover = page().studioLight ? () => wait.remove() : showFirst(model, pane, wait, views, first);
+      const uncover = page().drawn ? () => wait.remove() : showFirst(model, pane, wait, views, first);
       first = null;
       el.classList.add("ck-root");
       el.append(box, silence);
@@ -83,8 +102,11 @@ export default function () {
       try {
         MeshCat = await page().meshcat;
         await pause(0); // the picture is shown first, and the stage is built in a task of its own
-        if (signal && signal.aborted) return uncover();
-        stage = makeStage(MeshCat, pane, model.get("quality"));
+        if (signal && signal.aborted) {
+          if (begun) begun.stage.destroy();
+          return uncover();
+        }
+        stage = begun ? begun.stage : makeStage(MeshCat, pane, model.get("quality"));
       } catch (error) {
         uncover();
         const end = showPicture(model, pane, buttons, views, player, error);
@@ -191,13 +213,7 @@ export default function () {
         change(deleted, buffers) {
           pointer.restore();
           for (const path of deleted) viewer.delete_path(splitPath(path));
-          for (const bytes of buffers) {
-            try {
-              viewer.handle_command_bytearray(bytes);
-            } catch (error) {
-              console.error("[coursekit] a command of the scene failed", error); // and the rest is drawn all the same
-            }
-          }
+          sendAll(viewer, buffers);
           if (model.get("ghosts").length) drawGhosts(model.get("ghosts")); // their geometry may have been replaced
           onPose(); // what was drawn anew stands at the origin until it is placed
           pointer.show();
@@ -206,7 +222,7 @@ export default function () {
         rest: player.step,
       };
       viewer.set_3d_pane_size();
-      view.change([], [...commands.values()]);
+      view.change([], begun ? [] : [...commands.values()]);
       onLabels();
       onCamera();
       onText();
@@ -233,6 +249,27 @@ export default function () {
       };
     },
   };
+}
+
+function makePane() {
+  const pane = element("div", { ...own, class: "ck-pane", tabindex: 0, role: "group", "aria-roledescription": "3D view",
+    title: "drag: turn (on a link: its joint), right drag: move, wheel after a click: zoom; keys: arrows, + and -, Home" });
+  pane.addEventListener("contextmenu", (event) => { // the right button moves the picture
+    event.preventDefault();
+    event.stopPropagation();
+  });
+  element("div", { class: "ck-viewer" }, pane);
+  return pane;
+}
+
+function sendAll(viewer, commands) {
+  for (const bytes of commands) {
+    try {
+      viewer.handle_command_bytearray(bytes);
+    } catch (error) {
+      console.error("[coursekit] a command of the scene failed", error); // and the rest is drawn all the same
+    }
+  }
 }
 
 // The pane's own keys. True when the key was one of them.
