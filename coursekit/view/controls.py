@@ -11,40 +11,30 @@ later cell set.)
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from pathlib import Path
 from typing import Any, cast
 
-import anywidget
 import numpy as np
 import traitlets
 from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
+from coursekit.view.script import Widget
 
-STATIC = Path(__file__).parent / "static"
-SCRIPTS = ["html", "numbers", "parts", "controls"]
-SCRIPT = "\n".join((STATIC / f"{name}.js").read_text("utf-8") for name in SCRIPTS)
-STYLE = (STATIC / "controls.css").read_text("utf-8")  # a path would be watched, and hold every control
 _SHOWN_PER_SI = {"deg": 180 / np.pi, "mm": 1000.0}  # every other unit is shown as it is
 
 
-class Control(anywidget.AnyWidget):
+class Control(Widget):
     """What all controls share: a name, a label and a stable one-line repr."""
 
-    _esm = SCRIPT
-    _css = STYLE
-    kind = traitlets.Unicode().tag(sync=True)
     label = traitlets.Unicode().tag(sync=True)
     word = traitlets.Unicode().tag(sync=True)  # by which the picture knows what it means, see pointing.py
     touched = traitlets.Int(0).tag(sync=True)  # counts changes by a person
-    kind_name: str
     value: Any
     initial: Any  # what `reset` puts
 
     def __init__(self, name: str, label: str | None = None, **traits: Any) -> None:
         self.name = name
-        names = {"kind": type(self).kind_name, "label": name if label is None else label, "word": name}
-        super().__init__(**names, **traits)
+        super().__init__(label=name if label is None else label, word=name, **traits)
 
     def get(self) -> Any:
         """The value as an explorer's functions see it."""
@@ -81,7 +71,7 @@ class Slider(Control):
     (28.648, 0.5)
     """
 
-    kind_name = "slider"
+    kind = traitlets.Unicode("slider").tag(sync=True)
     value = traitlets.Float().tag(sync=True)
     live = traitlets.Bool(False).tag(sync=True)  # still being dragged: more values will come
     min = traitlets.Float().tag(sync=True)
@@ -93,9 +83,7 @@ class Slider(Control):
     digits = traitlets.Int().tag(sync=True)
     shape = traitlets.Int(0).tag(sync=True)  # counts changes of everything but the value
     wide = traitlets.Int(0).tag(sync=True)  # letters for which the label leaves room
-    bands: traitlets.List = traitlets.List().tag(
-        sync=True
-    )  # runs [low, high] of what can be reached; and inside limits
+    bands: traitlets.List = traitlets.List().tag(sync=True)  # reachable runs [low, high]; those inside limits
     _beyond = False  # whether a value outside min and max is taken as it is
 
     def __init__(
@@ -128,17 +116,15 @@ class Slider(Control):
         ----------
         start, low, high, unit, step, limits : as in the constructor
         """
-        name = self.name
         if not low < high:
-            raise ValueError(f"slider {name!r}: low must be below high, got {low} and {high}")
+            raise ValueError(f"slider {self.name!r}: low must be below high, got {low} and {high}")
         self.shown_per_si = _SHOWN_PER_SI.get(unit, 1.0)
         low, high = min(low, start), max(high, start)
-        shown = [self._shown(x) for x in (low, high)]
         step = step or {"deg": 1.0, "mm": 10.0}.get(unit, (high - low) / 100)
         with self.hold_sync():
             self.min, self.max = -np.inf, np.inf  # so that the old range does not clip the new value
             self.value = self.start = self._shown(start)
-            self.min, self.max = shown
+            self.min, self.max = self._shown(low), self._shown(high)
             self.step, self.unit = float(step), unit
             self.limits = [self._shown(x) for x in limits] if limits is not None else []
             self.digits = max(2, int(np.ceil(1 - np.log10(step))))
@@ -178,9 +164,8 @@ class Slider(Control):
 
     @traitlets.validate("value")
     def _inside(self, proposal):
-        low, high = self.min, self.max
-        clips = low < high and not self._beyond
-        return float(np.clip(proposal["value"], low, high)) if clips else proposal["value"]
+        clips = self.min < self.max and not self._beyond
+        return float(np.clip(proposal["value"], self.min, self.max)) if clips else proposal["value"]
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.name}: {np.round(self.value, 3) + 0:g} {self.unit})"
@@ -248,12 +233,6 @@ class JointSliders(Sliders):
         for slider, value in zip(self.used, np.asarray(theta, float), strict=True):
             slider.show(value)
 
-    def __init__(
-        self, robot: Robot, start: Sequence[float] | np.ndarray | None = None, name: str = "theta"
-    ) -> None:
-        start = robot.home if start is None else start
-        super().__init__(name, [JointSlider(robot, i, start[i]) for i in range(robot.n)])
-
     def fit(self, robot: Robot) -> None:
         """Serve another robot, from its home pose. At most as many joints as sliders were made."""
         if robot.n > len(self.sliders):
@@ -276,7 +255,8 @@ def joint_sliders(
     start : (n,), rad or m; None: the robot's home
     name : what `panel.set` and `panel.values` call them
     """
-    return JointSliders(robot, start, name)
+    start = robot.home if start is None else start
+    return JointSliders(name, [JointSlider(robot, i, start[i]) for i in range(robot.n)])
 
 
 class Choice(Control):
@@ -290,7 +270,7 @@ class Choice(Control):
         The label chosen first (default: the first).
     """
 
-    kind_name = "choice"
+    kind = traitlets.Unicode("choice").tag(sync=True)
     value = traitlets.Unicode().tag(sync=True)
     wide = traitlets.Int(0).tag(sync=True)  # as of a Slider
     options: traitlets.List = traitlets.List().tag(sync=True)
@@ -330,7 +310,7 @@ class Choice(Control):
 class Toggle(Control):
     """A box to tick; the value is a bool."""
 
-    kind_name = "toggle"
+    kind = traitlets.Unicode("toggle").tag(sync=True)
     value = traitlets.Bool().tag(sync=True)
 
     def __init__(self, name: str, label: str | None = None, start: bool = False) -> None:
@@ -341,7 +321,7 @@ class Toggle(Control):
 class Action(Control):
     """A button; `act()` is called under the panel's lock, then the panel is drawn again."""
 
-    kind_name = "action"
+    kind = traitlets.Unicode("action").tag(sync=True)
 
     def __init__(self, name: str, label: str | None = None, act: Callable[[], None] | None = None) -> None:
         self.act = act
@@ -363,7 +343,7 @@ class Action(Control):
 class TextLine(Control):
     """The numbers beside the picture, in words; read aloud when they come to rest."""
 
-    kind_name = "text"
+    kind = traitlets.Unicode("text").tag(sync=True)
     value = traitlets.Unicode().tag(sync=True)
 
     def __repr__(self) -> str:

@@ -4,27 +4,16 @@ import base64
 import html
 import json
 
-from coursekit.view import controls, meshcat
+from coursekit.view import meshcat, script
 from coursekit.view.panel import Panel
 from coursekit.view.picture import png
-from coursekit.view.viewer import STATIC, Viewer, script
+from coursekit.view.viewer import Viewer
 
-_PAGE = (STATIC / "page.html").read_text(encoding="utf-8")
-_OF_A_SLIDER = ("label", "word", "unit", "value", "min", "max", "step", "start", "limits", "digits", "wide")
-_OF_A_VIEWER = (
-    "labels",
-    "ghosts",
-    "moving",
-    "camera",
-    "views",
-    "description",
-    "quality",
-    "height",
-    "drive",
-    "pointers",
-)
-_OF_A_FORMULA = ("kind", "label", "word", "value", "says")
-_AND_ITS_MOTION = ("theta", "motion", "motion_texts", "frame")
+_OF_A_SLIDER = ["kind", "label", "word", "unit", "value", "min", "max", "step", "start", "limits", "digits"]
+_OF_A_SLIDER += ["wide", "shape", "touched"]
+_OF_A_VIEWER = ["labels", "ghosts", "moving", "camera", "views", "description", "quality", "height", "drive"]
+_OF_A_VIEWER += ["pointers", "theta", "motion", "motion_texts", "frame"]
+_OF_A_FORMULA = ["kind", "label", "word", "value", "says"]
 
 
 def to_html(shown: Panel | Viewer) -> str:
@@ -40,40 +29,36 @@ def to_html(shown: Panel | Viewer) -> str:
     >>> panel.close()
     """
     viewer = shown.viewer if isinstance(shown, Panel) else shown
-    state = {name: getattr(viewer, name) for name in (*_OF_A_VIEWER, *_AND_ITS_MOTION)}
-    binary = {"pose": viewer.pose, "motion_poses": viewer.motion_poses}
-    state |= {name: _base64(data) for name, data in binary.items()}
+    state = _of(viewer, _OF_A_VIEWER)
+    state |= {name: _base64(getattr(viewer, name)) for name in ("pose", "motion_poses")}
     state["commands"] = {key: _base64(data) for key, data in viewer.messages.packed.items()}
     sliders: dict[str, dict] = {}
     formula: dict | None = None
     if isinstance(shown, Panel):
-        sliders = {s.model_id: _state(s) for s in shown.drivers() if s is not None}
+        sliders = {s.model_id: _of(s, _OF_A_SLIDER) for s in shown.drivers() if s is not None}
         state["computed"] = shown.computed
         for shown_formula in shown.formula:
-            formula = {name: getattr(shown_formula, name) for name in _OF_A_FORMULA}
+            formula = _of(shown_formula, _OF_A_FORMULA)
         state["motion_theta"] = shown.motion.thetas.tolist() if shown.motion and sliders else None
-    style = [(STATIC / name).read_text(encoding="utf-8") for name in ("viewer.css", "controls.css")]
     line = viewer.scene.text()
     parts = {
         "title": html.escape(line.split(":")[0]),
         "description": html.escape(line),
-        "style": "\n".join(style),
-        "viewer": script().replace("export default function", "function makeWidget"),
-        "controls": controls.SCRIPT.replace("export default", "globalThis.coursekitControls ="),
+        "style": script.Script._css,
+        "script": script.Script._esm,
         "state": json.dumps({"viewer": state, "sliders": sliders, "formula": formula}).replace("</", "<\\/"),
         "picture": _base64(png(viewer.scene, 640, viewer.height)),
         "bundle": _base64(meshcat.bundle()),
         "notices": meshcat.notices().replace("--", "- -"),  # inside a comment
     }
-    page = _PAGE
+    page = script.read("page.html")
     for name, text in parts.items():
         page = page.replace(f"@{name}@", text)
     return page
 
 
-def _state(slider):
-    untouched = {"kind": "slider", "shape": 0, "touched": 0}
-    return untouched | {name: getattr(slider, name) for name in _OF_A_SLIDER}
+def _of(widget, names):
+    return {name: getattr(widget, name) for name in names}
 
 
 def _base64(data):

@@ -13,12 +13,12 @@ import time
 from collections.abc import Callable, Hashable, Sequence
 from typing import TYPE_CHECKING, Any
 
-import anywidget
 import numpy as np
 import traitlets
 from numpy.typing import ArrayLike
 
-from coursekit.view import controls, curves
+from coursekit.view import curves
+from coursekit.view.script import Widget
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,7 +38,7 @@ STYLE: Any = {
 }
 
 
-class Plot(anywidget.AnyWidget):
+class Plot(Widget):
     """A matplotlib figure below the 3D view.
 
     Parameters
@@ -64,8 +64,6 @@ class Plot(anywidget.AnyWidget):
         the last time. Without it, always.
     """
 
-    _esm = controls.SCRIPT
-    _css = controls.STYLE
     kind = traitlets.Unicode("plot").tag(sync=True)
     svg = traitlets.Unicode().tag(sync=True)
     alt = traitlets.Unicode().tag(sync=True)

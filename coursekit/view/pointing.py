@@ -29,7 +29,7 @@ _BELOW = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 class Formula(Control):
     """Lines of a formula; its parts are pointed at by mouse, Tab or tap. `fill(values)` gives the lines."""
 
-    kind_name = "formula"
+    kind = traitlets.Unicode("formula").tag(sync=True)
     value: traitlets.List = traitlets.List().tag(sync=True)  # lines of [text, word]
     says = traitlets.Dict().tag(sync=True)  # word -> what it means now
 

@@ -16,7 +16,7 @@ class Table(Control):
     `draw(values)` gives a small figure for each row, to choose by.
     """
 
-    kind_name = "table"
+    kind = traitlets.Unicode("table").tag(sync=True)
     value = traitlets.Int(-1).tag(sync=True)
     header: traitlets.List = traitlets.List().tag(sync=True)
     rows: traitlets.List = traitlets.List().tag(sync=True)

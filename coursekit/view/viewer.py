@@ -13,7 +13,6 @@ import contextlib
 import functools
 import itertools
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 from typing import Any
 
 import anywidget
@@ -27,19 +26,11 @@ from coursekit.view.controls import Slider
 from coursekit.view.meshcat import column_major
 from coursekit.view.picture import png
 from coursekit.view.scene import Scene
+from coursekit.view.script import Widget
 from coursekit.view.target import PoseSliders
 
-STATIC = Path(__file__).parent / "static"
-SCRIPTS = ["html", "bundle", "stage", "actors", "player"]
-SCRIPTS += ["kinematics", "follow", "handles", "point", "viewer"]
 
-
-def script() -> str:
-    """The page's side of the viewer: one JavaScript module, joined from the files in `static/`."""
-    return "\n".join((STATIC / f"{name}.js").read_text(encoding="utf-8") for name in SCRIPTS)
-
-
-class Viewer(anywidget.AnyWidget):
+class Viewer(Widget):
     """A scene in 3D.
 
     Parameters
@@ -55,8 +46,7 @@ class Viewer(anywidget.AnyWidget):
         Held while a picture is drawn that the page asks for: nothing may change the scene meanwhile.
     """
 
-    _esm = script()
-    _css = (STATIC / "viewer.css").read_text("utf-8")  # a path would be watched, and hold every viewer
+    kind = traitlets.Unicode("viewer").tag(sync=True)
     _bundle_was_sent = False  # by any Viewer of this kernel
 
     commands = traitlets.Dict().tag(sync=True, to_json=lambda _value, viewer: dict(viewer.messages.packed))

@@ -7,15 +7,15 @@ import subprocess
 
 import pytest
 
-from coursekit.view import controls, viewer
+from coursekit.view import script
 from tests.house.test_docs import ROOT
 from tests.needs import absent
 
 PAGE, TOOLS = ROOT / "tests" / "page", ROOT / ".venv" / "proxy" / "node_modules" / ".bin"
 VIEW = ROOT / "coursekit" / "view" / "static"
 SITE = ROOT / "coursekit" / "site" / "static"
-# The view's files are read together, as pages read them: two modules of several files each.
-JOINED = {"viewer.js": viewer.SCRIPTS, "controls.js": controls.SCRIPTS}
+# The view's files are read together, as pages read them.
+JOINED = {"widgets.js": script.SCRIPTS, "stub.js": ["stub"]}
 FILLED = {"@version@": "1", "@pages@": "[]"}  # what the site writes into its files
 
 

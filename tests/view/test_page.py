@@ -11,7 +11,7 @@ import pytest
 
 from coursekit import Robot, robots, view
 from coursekit.view import prediction
-from coursekit.view.viewer import STATIC
+from coursekit.view.script import STATIC
 
 TESTS = Path(__file__).resolve().parents[1] / "page"
 

@@ -9,6 +9,7 @@ import pytest
 
 from coursekit import robots, view
 from coursekit.view import Action, Choice, Panel, Plot, Scene, Slider, Sliders, Table, Toggle, joint_sliders
+from coursekit.view.script import Script
 
 
 @pytest.fixture
@@ -192,9 +193,29 @@ def test_running_a_cell_again_leaves_no_widget_models(made):
 
 
 def test_close_leaves_nothing():
+    small_panel().close()  # the first of all brings the page's script, which stays
     before = open_models()
     small_panel(below=[Plot(lambda figure, values: None, "Nothing.")]).close()
     assert open_models() == before
+
+
+def test_scripts_and_style_sheets_come_once(made):
+    small_panel().close()
+    before = set(ipywidgets.widgets.widget._instances)
+    made(view.explore_inverse(robots.kuka_kr6()))
+    made(small_panel(below=[Plot(lambda figure, values: None, "Nothing.")]))
+    models = [model for key, model in ipywidgets.widgets.widget._instances.items() if key not in before]
+    states = [state for state in (model.get_state() for model in models) if "_esm" in state]
+    assert len(states) > 25
+    assert sum(len(state["_esm"]) + len(state.get("_css", "")) for state in states) < 1000 * len(states)
+
+
+def test_the_script_comes_again_where_all_widgets_were_closed():
+    first = Slider("x").script
+    assert Toggle("y").script is first and isinstance(first, Script)
+    first.close()
+    again = Slider("x").script
+    assert again is not first and len(again.get_state()["_esm"]) > 50_000
 
 
 @pytest.mark.parametrize("name", [name for name in view.__all__ if name.startswith("explore")])

@@ -1,7 +1,7 @@
 // meshcat's own viewer (its main.min.js), evaluated once per page and shared by every view on it.
 // It arrives gzipped in a custom message of whichever Viewer model comes first, never in widget state.
 
-// What all views of this browser page share. A symbol on globalThis, because each widget model is its own module.
+// What all views of this browser page share. A symbol on globalThis, since two versions of this script may be in it.
 function page() {
   const key = Symbol.for("coursekit.page.1");
   if (!globalThis[key]) {

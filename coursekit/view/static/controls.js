@@ -1,8 +1,7 @@
-// The controls and read-outs of an explorer, in plain HTML so that keyboard and screen reader work as everywhere.
-// One module for all of them: the widget's `kind` picks the maker. A value is sent only when a person changes it,
-// never when a control is drawn, so drawing cannot disturb what the kernel has set.
+// The controls and read-outs of an explorer, in plain HTML so that keyboard and screen reader work as everywhere. A value is
+// sent only when a person changes it, never when a control is drawn, so drawing cannot disturb what the kernel has set.
 
-// A name for the page's only element of this kind: a counter would not do, each widget runs its own copy of this module.
+// A name for the page's only element of this kind: a counter would not do where two versions of the course are in a page.
 const unique = (kind) => `ck-${kind}-${Math.random().toString(36).slice(2)}`;
 
 // A person has changed this control: the kernel is told, and whoever listens in the page.
@@ -23,9 +22,8 @@ function slider(model, el) {
     el.replaceChildren();
     draw = buildSlider(model, el);
   };
+  keepDrawn(model, ["shape"], build); // another robot: other limits
   for (const name of ["value", "bands"]) model.on(`change:${name}`, () => draw());
-  model.on("change:shape", build); // another robot: other limits
-  build();
 }
 
 function buildSlider(model, el) {
@@ -33,10 +31,10 @@ function buildSlider(model, el) {
   const [min, max, step] = ["min", "max", "step"].map((name) => model.get(name));
   const label = model.get("label"), unit = model.get("unit"), digits = model.get("digits");
   const spoken = { deg: "degrees", mm: "millimetres", m: "metres" }[unit] || unit;
-  const range = element("input", { ...own, id, type: "range", role: "slider", class: "ck-range", min, max, step: "any",
+  const range = operated("input", { id, type: "range", role: "slider", class: "ck-range", min, max, step: "any",
     "aria-valuemin": min, "aria-valuemax": max });
   // not of type "number": that would drop the comma of 12,5 without a word
-  const box = element("input", { ...own, type: "text", inputmode: "decimal", autocomplete: "off", class: "ck-number",
+  const box = operated("input", { type: "text", inputmode: "decimal", autocomplete: "off", class: "ck-number",
     "aria-label": `${label}, ${spoken}` });
   const hint = element("div", { class: "ck-hint", role: "alert" });
   const name = element("label", { class: "ck-name", for: id }, label);
@@ -52,14 +50,11 @@ function buildSlider(model, el) {
   // The limits of the joint, marked where they are: at the ends, or inside when the slider goes beyond them.
   const limits = model.get("limits");
   const at = (value) => (100 * (value - min)) / (max - min || 1);
-  for (const value of [min, max, ...limits]) {
-    if (value !== min && value !== max && !limits.includes(value)) continue;
-    const isLimit = limits.includes(value);
-    if (!isLimit && limits.length) continue;
-    const mark = element("span", { class: isLimit ? "ck-mark ck-limit" : "ck-mark" }, trim(value, max - min < 10 ? 2 : 0));
+  for (const value of limits.length ? limits : [min, max]) {
+    const mark = element("span", { class: limits.length ? "ck-mark ck-limit" : "ck-mark" }, trim(value, max - min < 10 ? 2 : 0));
     mark.style.left = `${at(value)}%`;
-    if (isLimit) mark.title = "joint limit";
-    if (![...ends.children].some((other) => other.style.left === mark.style.left)) ends.append(mark);
+    if (limits.length) mark.title = "joint limit";
+    ends.append(mark);
   }
 
   // Where the target can be reached while the other sliders stay: a line; inside the joint limits: a bar upon it.
@@ -100,12 +95,11 @@ function buildSlider(model, el) {
     tell(model, { value: Number(inside.toPrecision(15)), live });
     draw();
   };
-  const snap = (value, grid) => Math.round(value / grid) * grid;
 
   range.addEventListener("pointerdown", () => (dragging = true));
   range.addEventListener("input", () => {
     const value = Number(range.value);
-    send(value - min < 1e-9 || max - value < 1e-9 ? value : snap(value, step), true);
+    send(value - min < 1e-9 || max - value < 1e-9 ? value : Math.round(value / step) * step, true);
   });
   range.addEventListener("change", () => {
     dragging = false;
@@ -114,17 +108,12 @@ function buildSlider(model, el) {
   range.addEventListener("keydown", (event) => {
     const jump = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
     const end = { Home: min, End: max }[event.key];
-    event.stopPropagation();
     if (jump === undefined && end === undefined) return;
     event.preventDefault();
     const grid = event.shiftKey ? step / 10 : step;
     send(end === undefined ? Number((model.get("value") + jump * grid).toFixed(9)) : end, event.repeat);
   });
   range.addEventListener("keyup", () => model.get("live") && send(model.get("value"), false));
-  const revert = () => {
-    box.ckEdited = false;
-    draw();
-  };
   box.addEventListener("input", () => (box.ckEdited = true));
   box.addEventListener("change", () => {
     if (!box.ckEdited) return; // taken back by Escape
@@ -140,14 +129,13 @@ function buildSlider(model, el) {
     if (value < min || value > max) hint.textContent = `${trim(value, digits)} is beyond the ${limits.includes(end) ? "limit" : "end"}, ${trim(end, digits)} ${unit}`;
   });
   box.addEventListener("keydown", (event) => {
-    const jump = { ArrowUp: 1, ArrowDown: -1 }[event.key];
-    if (event.key === "Escape") revert();
+    const jump = { ArrowUp: 1, ArrowDown: -1, Escape: 0 }[event.key];
     if (jump === undefined) return;
-    event.preventDefault();
     box.ckEdited = false;
+    if (!jump) return draw();
+    event.preventDefault();
     send(Number((model.get("value") + jump * (event.shiftKey ? step / 10 : step)).toFixed(9)), event.repeat);
   });
-  keepKeys(box);
   name.title = "double click: reset";
   name.addEventListener("dblclick", () => send(model.get("start"), false));
   draw();
@@ -155,38 +143,32 @@ function buildSlider(model, el) {
 }
 
 function choice(model, el) {
-  const select = element("select", { ...own, class: "ck-select" });
+  const select = operated("select", { class: "ck-select" });
   const draw = () => {
     select.replaceChildren(...model.get("options").map((text) => element("option", { value: text }, text)));
     select.value = model.get("value");
   };
   select.addEventListener("change", () => tell(model, { value: select.value }));
-  keepKeys(select);
   const row = element("label", { class: "ck-choice" }, element("span", { class: "ck-name" }, model.get("label")), select);
   leaveRoom(row, model);
   el.append(row);
-  model.on("change:value", draw);
-  model.on("change:options", draw);
-  draw();
+  keepDrawn(model, ["value", "options"], draw);
 }
 
 function toggle(model, el) {
-  const box = element("input", { ...own, type: "checkbox" });
+  const box = operated("input", { type: "checkbox" });
   const draw = () => (box.checked = model.get("value"));
   box.addEventListener("change", () => tell(model, { value: box.checked }));
-  keepKeys(box);
   el.append(element("label", { class: "ck-toggle" }, box, element("span", {}, model.get("label"))));
-  model.on("change:value", draw);
-  draw();
+  keepDrawn(model, ["value"], draw);
 }
 
 function action(model, el) {
-  const button = element("button", { ...own, type: "button", class: "ck-button" }, model.get("label"));
+  const button = operated("button", { type: "button", class: "ck-button" }, model.get("label"));
   button.addEventListener("click", () => {
     model.send({ type: "press" });
     tell(model);
   });
-  keepKeys(button);
   el.append(button);
 }
 
@@ -202,8 +184,7 @@ function text(model, el) {
   };
   shown.setAttribute("aria-hidden", "true"); // a screen reader gets the other copy, once
   el.append(shown, spoken);
-  model.on("change:value", draw);
-  draw();
+  keepDrawn(model, ["value"], draw);
   spoken.textContent = model.get("value");
 }
 
@@ -220,10 +201,9 @@ function table(model, el) {
     body.replaceChildren(...model.get("rows").map((row, i) => {
       const line = element("tr", i === value ? { class: "ck-chosen" } : {}, ...row.map((cell) => element("td", {}, cell)));
       if (selectable) {
-        const radio = element("input", { ...own, type: "radio", name: group, "aria-label": `choose ${row[0]}` });
+        const radio = operated("input", { type: "radio", name: group, "aria-label": `choose ${row[0]}` });
         radio.checked = i === value;
         radio.addEventListener("change", () => tell(model, { value: i }));
-        keepKeys(radio);
         line.prepend(element("td", {}, radio));
         if (focused && i === value) setTimeout(() => radio.focus());
       }
@@ -231,20 +211,18 @@ function table(model, el) {
     }));
   };
   el.append(figures.node, element("div", { class: "ck-scroll" }, element("table", { class: "ck-table" }, caption, head, body)));
-  for (const name of ["rows", "header", "value", "figures"]) model.on(`change:${name}`, draw);
-  draw();
+  keepDrawn(model, ["rows", "header", "value", "figures"], draw);
 }
 
 // A figure in the page's own ink, and marks over it, which move without it.
 function plot(model, el) {
-  const key = unique("plot");
   const drawing = element("div", { role: "img" }), marks = element("div", { class: "ck-marks", "aria-hidden": "true" });
   const frame = element("div", { class: "ck-plot" }, drawing, marks);
   const numbers = element("table", { class: "ck-table" }), caption = element("figcaption");
   const fold = element("summary", own, "numbers of this plot");
   const details = element("details", {}, fold, element("div", { ...own, class: "ck-scroll", tabindex: 0 }, numbers));
   const draw = () => {
-    drawing.innerHTML = model.get("svg").replace(/( id="|url\(#|href="#)/g, `$1${key}-`); // every view has its own names
+    drawing.innerHTML = model.get("svg").replace(/( id="|url\(#|href="#)/g, `$1${unique("plot")}-`); // every view has its own names
     drawing.setAttribute("aria-label", model.get("alt"));
     caption.textContent = model.get("caption");
     const [title, ...rows] = model.get("numbers");
@@ -272,10 +250,8 @@ function plot(model, el) {
   if (model.get("walkable")) takeArrows(model, frame);
   keepKeys(details);
   el.append(element("figure", { class: "ck-figure" }, frame, caption, details));
-  model.on("change:svg", draw);
-  model.on("change:cursor", place);
-  draw();
-  place();
+  keepDrawn(model, ["svg"], draw);
+  keepDrawn(model, ["cursor"], place);
   return watchSize(frame, () => {
     clearTimeout(timer);
     timer = setTimeout(fit, 200);
@@ -323,13 +299,13 @@ function takeArrows(model, frame) {
 
 const makers = { slider, choice, toggle, action, text, table, plot, formula };
 
-export default {
+const makeControl = (kind) => ({
   render({ model, el }) {
     el.classList.add("ck-control");
-    const end = makers[model.get("kind")](model, el) || (() => {});
+    const end = makers[kind](model, el) || (() => {});
     return () => {
       end();
       el.replaceChildren();
     };
   },
-};
+});

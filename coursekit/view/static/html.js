@@ -1,4 +1,4 @@
-// Small helpers of both scripts: elements, and keys and menus that the notebook must not take for its own.
+// Small helpers of all: elements, and keys and menus that the notebook must not take for its own.
 
 function element(tag, attributes = {}, ...children) {
   const node = document.createElement(tag);
@@ -10,6 +10,19 @@ function element(tag, attributes = {}, ...children) {
 // JupyterLab and Notebook take arrow keys and letters for themselves, unless an element says no: "d d" deletes a cell.
 const own = { "data-lm-suppress-shortcuts": "true" };
 const keepKeys = (node) => node.addEventListener("keydown", (event) => event.stopPropagation());
+
+// What a reader operates.
+function operated(tag, attributes, ...children) {
+  const node = element(tag, { ...own, ...attributes }, ...children);
+  keepKeys(node);
+  return node;
+}
+
+// Draw now, and when one of these changes.
+function keepDrawn(model, names, draw) {
+  for (const name of names) model.on(`change:${name}`, draw);
+  draw();
+}
 
 // The word that was pointed at last, of those that still are: by the mouse, by the focus.
 function latestWord() {

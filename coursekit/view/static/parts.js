@@ -24,9 +24,8 @@ function formula(model, el) {
   };
   const part = ([text, word]) => {
     if (!word) return element("span", {}, ...written(text));
-    const node = element("button", { ...own, type: "button", class: "ck-part" }, ...written(text));
+    const node = operated("button", { type: "button", class: "ck-part" }, ...written(text));
     node.addEventListener("click", () => node.focus()); // not every browser does that
-    keepKeys(node);
     pointsAt(node, word);
     return node;
   };
@@ -45,9 +44,7 @@ function formula(model, el) {
     say();
   });
   el.append(lines, meaning);
-  model.on("change:value", draw);
-  model.on("change:says", say);
-  draw();
+  keepDrawn(model, ["value", "says"], draw);
 }
 
 // A small figure for each row of a table: a click chooses it, pointing at it shows it in the picture. `choose(i)`.
@@ -56,9 +53,8 @@ function smallFigures(choose) {
   const SVG = "http://www.w3.org/2000/svg", KINDS = ["ground", "goal", "arm"];
   let buttons = [];
   const make = ({ word }, i) => {
-    const button = element("button", { ...own, type: "button", class: "ck-one" });
+    const button = operated("button", { type: "button", class: "ck-one" });
     button.addEventListener("click", () => choose(i));
-    keepKeys(button);
     pointsAt(button, word);
     return button;
   };

@@ -1,7 +1,6 @@
 // The Viewer widget: scene commands, poses and motions from the kernel in; pictures out.
-// viewer.py joins this file and those it needs, which stand above it, into one module.
 
-export default function () {
+function makeViewer() {
   const commands = new Map(); // key -> bytes of one meshcat command: the whole scene, for views that come later
   const views = new Set();
   let first = null; // the kernel's picture of the scene, which comes before any view

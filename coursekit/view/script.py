@@ -1,0 +1,47 @@
+"""The page's side of all widgets: one script and one style sheet, which a page gets once.
+
+A browser never lets go of a module, and anywidget makes one of each widget's own script: these are a few
+lines (static/stub.js), which wait for what the widget `Script` brings.
+"""
+
+import hashlib
+from pathlib import Path
+
+import anywidget
+import ipywidgets
+import traitlets
+
+STATIC = Path(__file__).parent / "static"
+SCRIPTS = ["html", "numbers", "parts", "controls", "bundle", "stage", "actors", "player"]
+SCRIPTS += ["kinematics", "follow", "handles", "point", "viewer", "shared"]
+
+
+def read(*names: str) -> str:
+    """Files of `static/`, joined; as text, since anywidget would watch a path, and so hold every widget."""
+    return "\n".join((STATIC / name).read_text("utf-8") for name in names)
+
+
+SCRIPT = read(*(f"{name}.js" for name in SCRIPTS))
+KEY = f"coursekit.{hashlib.sha256(SCRIPT.encode()).hexdigest()}"  # a page may have kernels of two versions
+
+
+class Script(anywidget.AnyWidget):
+    """What brings script and style sheet to the page."""
+
+    _esm = SCRIPT.replace("@key@", KEY)
+    _css = read("viewer.css", "controls.css")
+
+
+class Widget(anywidget.AnyWidget):
+    """A widget of the course: its own script waits for the page's, and asks it for what is of its `kind`."""
+
+    _esm = read("stub.js").replace("@key@", KEY)
+    kind = traitlets.Unicode().tag(sync=True)
+    script = traitlets.Instance(Script).tag(sync=True, **ipywidgets.widget_serialization)
+    _brought: Script | None = None
+
+    @traitlets.default("script")
+    def _bring(self):
+        if Widget._brought is None or Widget._brought.comm is None:  # the first; or all were closed
+            Widget._brought = Script()
+        return Widget._brought
