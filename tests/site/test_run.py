@@ -58,6 +58,16 @@ CHAIN = """def fk_dh(rows, theta, base, tool):
     return T @ tool"""
 
 
+AGAIN = """async (path) => {
+  const { commands } = window.jupyterapp;
+  const panel = await commands.execute("docmanager:open", { path });
+  await panel.context.ready;
+  await new Promise((done) => setTimeout(done, 2000)); // all its text is made, also what is out of sight
+  await commands.execute("docmanager:save");
+  await commands.execute("application:close");
+}"""
+
+
 class Student(Visit):
     """Somebody with a browser profile of their own."""
 
@@ -143,6 +153,17 @@ def test_python_starts_again_when_it_is_told_to(browser, run, served):
         student.wait()
         assert student.run("setup") == ""
         assert len(student.kernels()) == 1 and student.kernels() != ["early.js"]
+        _closed_notebooks_go(student.page)
+
+
+def _closed_notebooks_go(page):
+    """Here, because a page of its own would take longer than all of this."""
+    chrome, held = page.context.new_cdp_session(page), []
+    for _ in range(3):
+        page.evaluate(AGAIN, NAME)
+        chrome.send("HeapProfiler.collectGarbage")
+        held.append(chrome.send("Memory.getDOMCounters")["nodes"])
+    assert held[2] - held[1] < 5_000  # JupyterLab alone: 20,000
 
 
 @pytest.mark.parametrize("width", [412, 1366])
