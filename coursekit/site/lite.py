@@ -47,6 +47,7 @@ PYODIDE = f"""pyodide {wheels.VERSION}: Python and its packages for a browser, s
   Mozilla Public License 2.0, https://www.mozilla.org/MPL/2.0/
   its source: https://github.com/pyodide/pyodide/tree/{wheels.VERSION}
   Python itself: PSF License 2, https://docs.python.org/3/license.html
+  IPython: without its terminal
   numpy, matplotlib, pillow and others: each wheel in run/static/pyodide holds its own licence, and
   python_stdlib.zip there those of the packages in it
 """

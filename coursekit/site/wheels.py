@@ -24,8 +24,12 @@ CORE = ("pyodide.js", "pyodide.mjs", "pyodide.asm.js", "pyodide.asm.wasm", "pyth
 
 # From Pyodide's archive, with all that they need in turn.
 PYODIDES = ("numpy", "matplotlib", "pillow", "ipython", "jedi", "micropip", "packaging")
-# What those name and a kernel does without: fonts for PDF, time zones.
-NOT_NEEDED = ("fonttools", "pytz")
+# What those name and a kernel does without: fonts for PDF, time zones, the lines of a terminal.
+NOT_NEEDED = ("fonttools", "pytz", "prompt-toolkit", "wcwidth")
+# Files with other contents: IPython imports its terminal, which a browser has not, and 130 modules with it.
+_INSTEAD = {
+    "IPython/terminal/embed.py": b'def embed(**_):\n    raise RuntimeError("a browser has no terminal")\n'
+}
 
 # From this environment: package -> (what it is imported as, what it needs in the browser).
 FROM_HERE: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
@@ -229,7 +233,9 @@ def _unzip(data: bytes) -> dict[str, bytes]:
 
 
 def _slim(data: bytes) -> bytes:
-    return _zip({name: part for name, part in _unzip(data).items() if not _SPARE.search(name)})
+    return _zip(
+        {name: _INSTEAD.get(name, part) for name, part in _unzip(data).items() if not _SPARE.search(name)}
+    )
 
 
 def from_here(name: str) -> tuple[str, bytes]:

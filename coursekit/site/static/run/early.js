@@ -2,7 +2,8 @@
 // its own; in that worker it loads Pyodide as the kernel would, so that the kernel finds it loaded.
 (() => {
   // What the kernel and nearly every first cell import; between two of them the kernel is heard.
-  const FIRST = ["piplite.piplite", "pyodide_kernel", "numpy", "anywidget", "coursekit.view", "coursekit.classroom", "sympy"];
+  const FIRST = ["piplite.piplite", "pyodide_kernel", "numpy", "anywidget", "coursekit.view", "coursekit.classroom"];
+  const LATER = "sympy", QUIET = 5_000; // what cells further down import, once no message has come for so many ms
   const IDLE = 120_000; // ms until a worker that nobody asked for goes
 
   async function inWorker() {
@@ -22,6 +23,10 @@
       python.runPython(`import ${name}`);
       await new Promise((heard) => setTimeout(heard));
     }
+    let last = performance.now();
+    addEventListener("message", () => { last = performance.now(); });
+    while (performance.now() - last < QUIET) await new Promise((heard) => setTimeout(heard, QUIET));
+    python.runPython(`import ${LATER}`);
   }
 
   function inPage(script) {
