@@ -3,11 +3,12 @@
 (() => {
   // What the kernel and nearly every first cell import; between two of them the kernel is heard.
   const FIRST = ["piplite.piplite", "pyodide_kernel", "numpy", "anywidget", "coursekit.view", "coursekit.classroom"];
-  const LATER = "sympy", QUIET = 5_000; // what cells further down import, once no message has come for so many ms
+  const LATER = "sympy", QUIET = 5_000; // what cells further down import, once nothing more was asked for so many ms
   const IDLE = 120_000; // ms until a worker that nobody asked for goes
 
   async function inWorker() {
-    let load, started;
+    let load, started, heard = Infinity;
+    addEventListener("message", () => { heard = performance.now(); });
     // The kernel runs Pyodide's script again, and then finds what runs already. (The script sets the name to other things, too.)
     Object.defineProperty(self, "loadPyodide", {
       get: () => (options) => (started ||= load(options)),
@@ -21,11 +22,9 @@
     const python = await self.loadPyodide({ indexURL: new URL(".", url).href, ...loadPyodideOptions });
     for (const name of FIRST) {
       python.runPython(`import ${name}`);
-      await new Promise((heard) => setTimeout(heard));
+      await new Promise((on) => setTimeout(on));
     }
-    let last = performance.now();
-    addEventListener("message", () => { last = performance.now(); });
-    while (performance.now() - last < QUIET) await new Promise((heard) => setTimeout(heard, QUIET));
+    while (!(performance.now() - heard > QUIET)) await new Promise((on) => setTimeout(on, QUIET));
     python.runPython(`import ${LATER}`);
   }
 
