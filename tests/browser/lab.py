@@ -154,10 +154,16 @@ class Notebook:
         self._ready()
 
     def _ready(self):
+        # On a busy machine JupyterLab gives the focus to a notebook that WebKit has not laid out yet, which then
+        # has none, and is nobody's current one: a person would click on it.
         self.page.wait_for_function(
-            """() => window.jupyterapp && window.jupyterapp.shell.currentWidget
-                 && window.jupyterapp.shell.currentWidget.context
-                 && window.jupyterapp.shell.currentWidget.context.isReady""",
+            """() => {
+                 const { shell } = window.jupyterapp || {};
+                 if (!shell) return false;
+                 const opened = [shell.currentWidget, ...shell.widgets("main")].find((one) => one?.context);
+                 if (opened && opened !== shell.currentWidget) shell.activateById(opened.id);
+                 return opened && opened === shell.currentWidget && opened.context.isReady;
+               }""",
             timeout=60_000,
         )
         self.idle()
