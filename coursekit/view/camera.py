@@ -9,7 +9,7 @@ from .chain import Chain
 from .paint import Part
 
 FOV = 32.0  # vertical angle of view, degrees
-ASPECT = 1.25  # width by height of a picture; the page steps back where it is narrower
+ASPECT = 1.25  # width by height of a picture
 
 STANDS = {
     "home": (-58, 17),
@@ -19,8 +19,10 @@ STANDS = {
 }  # azimuth, elevation, degrees
 
 
-def views(low: np.ndarray, high: np.ndarray, size: float) -> dict[str, dict[str, list[float]]]:
-    """Stands from which the box low..high is seen: name -> {"position", "target"}, metres, z up.
+def views(low: np.ndarray, high: np.ndarray, size: float) -> dict[str, dict]:
+    """Stands from which the box low..high is seen: name -> {"position", "target", "wide"}, metres, z up.
+
+    In a picture whose width by height is less than "wide", the page steps back.
 
     A box much smaller than the arm (a folded pose) does not bring the camera closer: arms unfold.
 
@@ -29,16 +31,18 @@ def views(low: np.ndarray, high: np.ndarray, size: float) -> dict[str, dict[str,
     """
     center = (low + high) / 2
     corners = np.array(np.meshgrid(*np.stack([low, high], axis=1))).reshape(3, -1).T - center
-    tangent = np.tan(np.radians(FOV / 2))
+    tangent, room = np.tan(np.radians(FOV / 2)), 0.4 * size
     stands = {}
     for name, (azimuth, elevation) in STANDS.items():
         a, e = np.radians([azimuth, elevation])
         way = np.array([np.cos(a) * np.cos(e), np.sin(a) * np.cos(e), np.sin(e)])
         right = np.array([-np.sin(a), np.cos(a), 0.0])
-        across, upwards = np.abs(corners @ right) / ASPECT, np.abs(corners @ np.cross(way, right))
-        near = np.max(corners @ way + np.maximum(across, upwards) / tangent)  # every corner is in the picture
-        distance = max(near, 0.4 * size / np.sin(np.radians(FOV / 2)))
-        stands[name] = {"position": (center + distance * way).tolist(), "target": center.tolist()}
+        ahead, across, up = corners @ way, np.abs(corners @ right), np.abs(corners @ np.cross(way, right))
+        near = np.max(ahead + np.maximum(across / ASPECT, up) / tangent)  # every corner is in the picture
+        distance = max(near, room / np.sin(np.radians(FOV / 2)))
+        wide = float(max(room / distance, np.max(across / (distance - ahead))) / tangent)
+        position, target = (center + distance * way).tolist(), center.tolist()
+        stands[name] = {"position": position, "target": target, "wide": wide}
     return stands
 
 

@@ -273,16 +273,12 @@ class Scene:
 
     @property
     def camera(self) -> dict:
-        """Where the camera stands at first, and its lens.
-
-        {"position", "target", "size"} in metres, z up; {"fov"} in degrees; {"aspect"}, width by height.
-        """
-        lens = {"fov": camera.FOV, "aspect": camera.ASPECT}
-        return {**self.views["home"], "size": float(self.size), **lens}
+        """Where the camera stands at first, as a view, with {"size"} in metres and {"fov"} in degrees."""
+        return {**self.views["home"], "size": float(self.size), "fov": camera.FOV}
 
     @property
-    def views(self) -> dict[str, dict[str, list[float]]]:
-        """Named camera stands: {"home", "top", "side", "front"} -> {"position", "target"}."""
+    def views(self) -> dict[str, dict]:
+        """Named camera stands: {"home", "top", "side", "front"} -> {"position", "target", "wide"}."""
         margin = 0.1 * self.size
         low, high = [self._low, *self._seen - margin], [self._high, *self._seen + margin]
         return camera.views(np.min(low, axis=0), np.max(high, axis=0), self.size)

@@ -5,7 +5,7 @@ Where there is no browser the tests are skipped with the reason; with CI=true th
 
 import pytest
 
-from tests.browser.explorer import Explorer
+from tests.browser.explorer import IMPORT, SHOW, Explorer
 from tests.browser.lab import Lab, Notebook
 
 
@@ -61,3 +61,23 @@ def opened(notebook, request):
 def opened_by_touch(open_page, request):
     """The same on a screen that is touched."""
     return lambda name, robot, line: explorer_in(open_page(has_touch=True), request, name, robot, line)
+
+
+@pytest.fixture(scope="module")
+def kr6_opened(lab, open_page, request):
+    """The explorer of a KUKA KR6, run and at rest; opening JupyterLab is what takes the time."""
+    notebook = open_page()
+    notebook.open(lab.write(f"{request.path.stem}.ipynb", IMPORT, SHOW, "1 + 1"))
+    notebook.run_all()
+    notebook.wait_view()
+    return notebook
+
+
+@pytest.fixture
+def explorer(kr6_opened):
+    """The same for each test of a file, as it was at first."""
+    kr6_opened.kernel("panel.reset()")
+    kr6_opened.settle()
+    kr6_opened.errors.clear()
+    yield kr6_opened
+    assert kr6_opened.errors == []

@@ -2,6 +2,9 @@
 
 import numpy as np
 
+IMPORT = "from coursekit import robots, view"
+SHOW = "panel = view.explore(robots.kuka_kr6())\npanel"
+
 
 class Explorer:
     """The explorer of a notebook, open in the browser, and its panel in the kernel."""

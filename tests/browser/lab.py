@@ -154,8 +154,8 @@ class Notebook:
         self._ready()
 
     def _ready(self):
-        # On a busy machine JupyterLab gives the focus to a notebook that WebKit has not laid out yet, which then
-        # has none, and is nobody's current one: a person would click on it.
+        # On a busy machine JupyterLab gives the focus to a notebook that WebKit has not laid out yet: it gets
+        # none, and is nobody's current one. A person would click on it.
         self.page.wait_for_function(
             """() => {
                  const { shell } = window.jupyterapp || {};

@@ -4,31 +4,11 @@ import numpy as np
 import pytest
 
 from coursekit import robots
+from tests.browser.explorer import IMPORT, SHOW
 
 pytestmark = pytest.mark.browser
 
-IMPORT = "from coursekit import robots, view"
-SHOW = "panel = view.explore(robots.kuka_kr6())\npanel"
 TOOL = "/ck/robot/6/tool"
-
-
-@pytest.fixture(scope="module")
-def opened(lab, open_page):
-    """The explorer of a KUKA KR6, run and at rest; opening JupyterLab is what takes the time."""
-    notebook = open_page()
-    notebook.open(lab.write("explorer.ipynb", IMPORT, SHOW))
-    notebook.run_all()
-    notebook.wait_view()
-    return notebook
-
-
-@pytest.fixture
-def explorer(opened):
-    opened.kernel("panel.reset()")
-    opened.settle()
-    opened.errors.clear()
-    yield opened
-    assert opened.errors == []
 
 
 def sliders(notebook):

@@ -9,12 +9,11 @@ import pytest
 
 from coursekit import robots
 from tests.browser.drivers import Firefox, WebKit
+from tests.browser.explorer import IMPORT, SHOW
 from tests.browser.lab import Notebook
 
 pytestmark = pytest.mark.browser
 
-IMPORT = "from coursekit import robots, view"
-SHOW = "panel = view.explore(robots.kuka_kr6())\npanel"
 ORANGE = """() => {
     const canvas = document.querySelector(".ck-viewer canvas");
     const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);

@@ -4,31 +4,12 @@ import numpy as np
 import pytest
 
 from coursekit import ik, robots, rotations, view
+from tests.browser.explorer import IMPORT, SHOW
 
 pytestmark = pytest.mark.browser
 
 KR6 = robots.kuka_kr6()
-IMPORT = "from coursekit import robots, view"
-SHOW = "panel = view.explore(robots.kuka_kr6())\npanel"
 CELLS = "() => window.jupyterapp.shell.currentWidget.content.widgets.length"
-
-
-@pytest.fixture(scope="module")
-def opened(lab, open_page):
-    notebook = open_page()
-    notebook.open(lab.write("once_wrong.ipynb", IMPORT, SHOW, "1 + 1"))
-    notebook.run_all()
-    notebook.wait_view()
-    return notebook
-
-
-@pytest.fixture
-def explorer(opened):
-    opened.kernel("panel.reset()")
-    opened.settle()
-    opened.errors.clear()
-    yield opened
-    assert opened.errors == []
 
 
 @pytest.mark.parametrize(

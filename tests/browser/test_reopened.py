@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 
 from coursekit import robots
+from tests.browser.explorer import IMPORT
 from tests.browser.test_kinematics import link
 
 pytestmark = pytest.mark.browser
 
 KR6 = robots.kuka_kr6()
-IMPORT = "from coursekit import robots, view"
 SHUT_DOWN = "() => window.jupyterapp.shell.currentWidget.context.sessionContext.shutdown()"
 
 

@@ -82,7 +82,7 @@ class _Singularities(yours.Singularities, Explorer):
         self.offered = JOINTS if self.split else some
         names = list(self.offered)
         self.across = Choice("across", self.offered, names[0], "map, across")
-        self.upwards = Choice("up", self.offered, names[min(1, n - 1)], "map, upwards")
+        self.upwards = Choice("up", self.offered, names[min(1, n - 1)], "map, up")
         self.show(self.robot)
 
     def controls(self):

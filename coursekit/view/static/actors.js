@@ -23,7 +23,7 @@ function makeLabels(THREE, viewer, pane, renderer) {
         const span = document.createElement("span");
         span.className = `ck-label ${cls || ""}`;
         span.textContent = text;
-        return { span, pos, path: splitPath(path), isWord: !["x", "y", "z", "tick"].includes(cls), wide: 7 * text.length };
+        return { span, pos, path: splitPath(path), isWord: !["x", "y", "z", "tick"].includes(cls), wide: 7 * text.length + 6 };
       });
       labels.sort((a, b) => b.isWord - a.isWord);
       layer.replaceChildren(...labels.map((label) => label.span));
@@ -104,20 +104,18 @@ function makeCamera(THREE, viewer, pane) {
   const { camera, controls } = viewer;
   const spherical = new THREE.Spherical(), offset = new THREE.Vector3();
   let shown = null; // the named view, as long as nobody turned it
-  let wide = 1; // the width of the picture, by its height, for which the views were made
   controls.addEventListener("start", () => (shown = null));
   const place = () => {
     const aspect = pane.clientWidth / pane.clientHeight;
     if (!shown || !aspect) return;
     controls.target.set(...yUp(shown.target));
-    offset.set(...yUp(shown.position)).sub(controls.target).multiplyScalar(Math.max(1, wide / aspect)); // narrow: step back
+    offset.set(...yUp(shown.position)).sub(controls.target).multiplyScalar(Math.max(1, shown.wide / aspect)); // narrow: step back
     camera.position.copy(controls.target).add(offset);
     controls.update();
     viewer.set_dirty();
   };
   return {
-    lens({ size, fov, aspect }) {
-      wide = aspect;
+    lens({ size, fov }) {
       camera.fov = fov;
       camera.near = 0.02 * size;
       camera.far = 30 * size;
