@@ -266,14 +266,16 @@ class Notebook:
         self.rest()
 
     def rest(self):
-        """Wait until no view has drawn a frame for half a second."""
+        """Wait until no view has drawn for half a second and ten frames of the page, which may be slow."""
         self.page.evaluate(
             """async () => {
                  const views = () => [...document.querySelectorAll(".ck-viewer")];
                  const frames = () => views().map((b) => b.coursekit?.stage.frames).join();
                  for (let last = null, i = 0; last !== frames() && i < 60; i += 1) {
                    last = frames();
-                   await new Promise((done) => setTimeout(done, 500));
+                   const half = new Promise((done) => setTimeout(done, 500));
+                   for (let k = 0; k < 10; k += 1) await new Promise(requestAnimationFrame);
+                   await half;
                  }
                }"""
         )

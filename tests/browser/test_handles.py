@@ -280,22 +280,28 @@ def test_two_fingers_move_the_picture_and_zoom(touched):
     assert distance() < 0.8 * before
 
 
-def test_a_finger_moves_the_target(opened_by_touch):
-    explorer = opened_by_touch("inverse", robots.kuka_kr6(), "view.explore_inverse()")
-    before, start = target(explorer), centre(explorer, "move {d} along its x")  # which points downwards
+def finger(explorer, start, way):
+    """Drag a finger from a place of the page by `way` pixels, and let go."""
     session = explorer.page.context.new_cdp_session(explorer.page)
-    for kind, by in (
-        ("touchStart", 0),
-        ("touchMove", 15),
-        ("touchMove", 30),
-        ("touchMove", 45),
-        ("touchEnd", None),
-    ):
-        points = [] if by is None else [{"x": float(start[0]), "y": float(start[1] + by)}]
-        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+    for kind, share in (("Start", 0), ("Move", 1 / 3), ("Move", 2 / 3), ("Move", 1), ("End", None)):
+        at = [] if share is None else [dict(zip("xy", (start + share * np.array(way)).tolist(), strict=True))]
+        session.send("Input.dispatchTouchEvent", {"type": f"touch{kind}", "touchPoints": at})
         explorer.page.wait_for_timeout(60)
     explorer.settle()
+
+
+def test_a_finger_moves_the_target_and_a_guess(opened_by_touch):
+    explorer = opened_by_touch("inverse", robots.kuka_kr6(), "view.explore_inverse()")
+    before, start = target(explorer), centre(explorer, "move {d} along its x")  # which points downwards
+    finger(explorer, start, (0, 45))
     moved = before[:3, :3].T @ (target(explorer)[:3, 3] - before[:3, 3])
     assert moved[0] > 0.02 and np.abs(moved[1:]).max() < 1e-6
     assert_all_solutions_are_at(explorer, target(explorer))
+
+    explorer.page.get_by_role("checkbox", name="predict first").check()
+    explorer.settle()
+    guess, start = explorer.values("prediction"), centre(explorer, "move your guess")
+    finger(explorer, start, (30, -45))
+    assert np.linalg.norm(explorer.values("prediction") - guess) > 0.02
+    np.testing.assert_allclose(centre(explorer, "move your guess"), start + [30, -45], atol=4)
     assert explorer.notebook.errors == []

@@ -99,6 +99,35 @@ def test_the_picture_and_the_control_that_is_moved_are_in_sight_together(opened,
     opened.page.set_viewport_size({"width": 1366, "height": 768})
 
 
+# Labels that the picture cuts off, or that lie over its buttons, once these stand where a label was.
+HIDDEN = """async () => {
+    const pane = document.querySelector(".ck-pane").getBoundingClientRect();
+    const labels = () => [...document.querySelectorAll(".ck-label:not(.tick)")]
+        .map((one) => [one, one.getBoundingClientRect()]).filter(([, box]) => box.width);
+    const cut = labels().filter(([, box]) => box.left < pane.left || box.right > pane.right);
+    const buttons = document.querySelector(".ck-views"), [, there] = labels()[0];
+    buttons.style.left = `${there.left - pane.left}px`;
+    buttons.style.top = `${there.top - pane.top}px`;
+    document.querySelector(".ck-viewer").coursekit.stage.moved();
+    await new Promise((done) => setTimeout(done, 1000));
+    const place = buttons.getBoundingClientRect();
+    const over = labels().filter(([, box]) => box.right > place.left && box.left < place.right
+        && box.bottom > place.top && box.top < place.bottom);
+    buttons.removeAttribute("style");
+    return [...cut, ...over].map(([one]) => one.textContent);
+}"""
+
+
+def test_no_label_of_a_narrow_picture_is_cut_off_or_under_its_buttons(opened):
+    opened.page.set_viewport_size({"width": 412, "height": 900})
+    opened.notebook.command("application:toggle-left-area")
+    opened.page.wait_for_timeout(500)
+    opened.notebook.rest()
+    assert opened.page.evaluate(HIDDEN) == []
+    opened.notebook.command("application:toggle-left-area")
+    opened.page.set_viewport_size({"width": 1366, "height": 768})
+
+
 def test_tracks_begin_and_end_below_each_other(opened):
     boxes = opened.page.eval_on_selector_all(
         ".ck-column .ck-range", "all => all.map((one) => [one.getBoundingClientRect().left, one.clientWidth])"

@@ -23,7 +23,7 @@ function makeLabels(THREE, viewer, pane, renderer) {
         const span = document.createElement("span");
         span.className = `ck-label ${cls || ""}`;
         span.textContent = text;
-        return { span, pos, path: splitPath(path), isWord: !["x", "y", "z", "tick"].includes(cls), wide: 7 * text.length + 6 };
+        return { span, pos, path: splitPath(path), isWord: !["x", "y", "z", "tick"].includes(cls), wide: 7.2 * text.length + 6 };
       });
       labels.sort((a, b) => b.isWord - a.isWord);
       layer.replaceChildren(...labels.map((label) => label.span));
@@ -35,7 +35,8 @@ function makeLabels(THREE, viewer, pane, renderer) {
       for (const { span, pos, path, isWord, wide } of labels) {
         const object = viewer.scene_tree.find(path).object;
         point.set(...pos).applyMatrix4(object.matrixWorld).project(viewer.camera);
-        const x = ((point.x + 1) / 2) * width;
+        const across = ((point.x + 1) / 2) * width, inside = Math.max(wide / 2, Math.min(width - wide / 2, across));
+        const x = Math.abs(point.x) < 1 ? inside : across; // what is in the picture has all of its name there
         let y = ((1 - point.y) / 2) * height;
         // words give way to each other, downwards; the letters of axes and the scale of the grid, by not being there
         const isTaken = () => taken.some((other) => Math.abs(other.x - x) < (other.wide + wide) / 2 && Math.abs(other.y - y) < (other.high || 13));
