@@ -23,7 +23,6 @@ def views(low: np.ndarray, high: np.ndarray, size: float) -> dict[str, dict]:
     """Stands from which the box low..high is seen: name -> {"position", "target", "wide"}, metres, z up.
 
     In a picture whose width by height is less than "wide", the page steps back.
-
     A box much smaller than the arm (a folded pose) does not bring the camera closer: arms unfold.
 
     >>> views(np.zeros(3), np.ones(3), 1.0)["front"]["target"]
