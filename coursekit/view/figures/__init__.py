@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import io
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -44,19 +44,32 @@ def show() -> None:
     display(data, metadata={"image/png": {"alt": curves.words(figure)}}, raw=True)
 
 
-def axes_3d(count: int, size: tuple[float, float]) -> np.ndarray:
-    """`count` empty axes in 3D side by side; size in inches."""
+def blank(size: tuple[float, float], count: int = 1, grid: float = 0.3, **more: Any) -> Any:
+    """Empty axes with a grid of this opacity; several stand side by side, in an array. size in inches."""
     import matplotlib.pyplot as plt
 
-    _, axes = plt.subplots(
-        1, count, figsize=size, subplot_kw={"projection": "3d"}, squeeze=False, layout="constrained"
-    )
-    for ax in axes[0]:
+    _, axes = plt.subplots(ncols=count, figsize=size, layout="constrained", **more)
+    for ax in np.ravel(axes if grid else []):
+        ax.grid(alpha=grid)
+    return axes
+
+
+def in_space(size: tuple[float, float], count: int = 1, **more: Any) -> Any:
+    """As `blank`: axes of three directions, seen without perspective."""
+    axes = blank(size, count, subplot_kw={"projection": "3d"}, **more)
+    for ax in np.ravel(axes):
         ax.set_proj_type("ortho")
+    return axes
+
+
+def axes_3d(count: int, size: tuple[float, float]) -> np.ndarray:
+    """`count` axes in space on grey paper, in an array; size in inches."""
+    axes = np.ravel(in_space(size, count))
+    for ax in axes:
         for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
             axis.pane.set_facecolor("#F6F7F9")
             axis._axinfo["grid"].update(color="#E1E5EA", linewidth=0.6)
-    return axes[0]
+    return axes
 
 
 def limits_3d(ax: Axes3D, limits: Sequence[tuple[float, float]], ticks: Iterable[float], unit: str) -> None:

@@ -10,14 +10,15 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import dh
 from coursekit.kinematics.robot import Robot
-from coursekit.view.figures import INK, axes_3d, limits_3d, palette, show
+from coursekit.view.figures import INK, axes_3d, blank, limits_3d, palette, show
 from coursekit.view.figures.side import GREY, INTO, mark_axis, mark_frame, side_view
 
 CROWD = 0.1  # m: frames nearer to each other than this are fanned out
 
 
-def half_steps(a: float = 0.5, alpha: float = 0.9, d: float = 0.4, theta: float = 0.7) -> None:
+def half_steps() -> None:
     """One row of a standard table: frame i - 1, the frame i' after the turn and shift on z, and frame i."""
+    a, alpha, d, theta = 0.5, 0.9, 0.4, 0.7
     first = dh.Table([0.0], [0.0], [d], [theta]).fk([0.0])
     last = dh.Table([a], [alpha], [d], [theta]).fk([0.0])
     (ax,) = axes_3d(1, (6.4, 4.6))
@@ -42,7 +43,7 @@ def half_steps(a: float = 0.5, alpha: float = 0.9, d: float = 0.4, theta: float 
     limits_3d(ax, [(-0.15, 0.65), (-0.2, 0.6), (-0.2, 0.75)], ticks=(0, 0.25, 0.5), unit="m")
     ax.view_init(20, -18)
     _name(ax, [np.eye(4), first, last], ["i−1", "i′", "i"], 0.2)
-    _show()
+    show()
 
 
 def common_normals() -> None:
@@ -50,9 +51,7 @@ def common_normals() -> None:
 
     A sketch, not to scale: 25 and 35 mm are drawn longer, so that frames stand apart.
     """
-    import matplotlib.pyplot as plt
-
-    _, axes = plt.subplots(1, 2, figsize=(9.8, 4.9), layout="constrained", sharey=True)
+    axes = blank((9.8, 4.9), 2, sharey=True)
     s, top, two, three = (0, 0), (0, 300), (140, 300), (440, 300)
     up, down, forward = (0, 1), (0, -1), (1, 0)
     at_zero = (440, 430), (740, 430), (810, 430), up, (-1, 0)
@@ -92,9 +91,7 @@ def common_normals() -> None:
 
 def exam_drawing() -> None:
     """The Kawasaki S030 in its drawn pose: five lengths, axes without a sense, frames 0 and 6."""
-    import matplotlib.pyplot as plt
-
-    _, ax = plt.subplots(figsize=(7.4, 5.9), layout="constrained")
+    ax = blank((7.4, 5.9))
     corners = [(0, 0), (0, 680), (150, 680), (150, 1550), (1230, 1550), (1395, 1550)]
     side_view(ax, corners, ["h = 680", "o = 150", "u = 870", "f = 1080", "t = 165"], margin=110, room=260)
     for name, ends in (("1", [(0, -120), (0, 860)]), ("4, 6", [(-20, 1550), (1620, 1550)])):
@@ -109,7 +106,7 @@ def exam_drawing() -> None:
     show()
 
 
-def placements(robot: Robot, fan: ArrayLike = (0.0, 0.0, 0.32)) -> None:
+def placements(robot: Robot) -> None:
     """The frames of the standard and of the modified table of one robot at theta = 0, side by side."""
     if robot.standard_dh is None or robot.modified_dh is None:
         raise ValueError(f"{robot.name} has no DH tables of both conventions")
@@ -117,12 +114,12 @@ def placements(robot: Robot, fan: ArrayLike = (0.0, 0.0, 0.32)) -> None:
     axes = axes_3d(2, (9.6, 5.0))
     for ax, table, axis in zip(axes, (robot.standard_dh, robot.modified_dh), ("i + 1", "i"), strict=True):
         frames = np.concatenate([table.base[None], table.frames(zero)])
-        _scene(ax, robot, zero, frames, [str(i) for i in range(robot.n + 1)], np.array(fan))
+        _scene(ax, robot, zero, frames, [str(i) for i in range(robot.n + 1)], (0, 0, 0.32))
         ax.set_title(f"{table.convention}: frame i on axis {axis}", fontsize=11)
-    _show()
+    show()
 
 
-def poses(robot: Robot, *thetas: Sequence[float] | np.ndarray, fan: ArrayLike = (0.3, 0.0, 0.1)) -> None:
+def poses(robot: Robot, *thetas: Sequence[float] | np.ndarray) -> None:
     """The modified frames and the tool frame of a robot in several configurations, seen from above."""
     if robot.modified_dh is None:
         raise ValueError(f"{robot.name} has no modified DH table")
@@ -130,47 +127,36 @@ def poses(robot: Robot, *thetas: Sequence[float] | np.ndarray, fan: ArrayLike = 
     axes = axes_3d(len(thetas), (9.6, 6.2))
     for ax, theta in zip(axes, thetas, strict=True):
         frames = np.concatenate([robot.modified_dh.frames(theta), robot.fk(theta)[None]])
-        _scene(ax, robot, theta, frames, names, np.array(fan), view=(50, -90))
+        _scene(ax, robot, theta, frames, names, (0.3, 0, 0.1), view=(50, -90))
         ax.set_title(f"θ₁ = {np.degrees(theta[0]):.0f} deg", fontsize=11)
-    _show()
+    show()
 
 
 def near_parallel(tilt: ArrayLike, d: ArrayLike, change: ArrayLike, marked: float) -> None:
     """How far the common normal runs away, and how little the screw changes, over the tilt of an axis."""
-    import matplotlib.pyplot as plt
-
-    _, ax = plt.subplots(figsize=(6.4, 3.4), layout="constrained")
+    ax = blank((6.4, 3.4))
     ax.loglog(tilt, np.abs(d), "-", color=palette("accent"), marker="o", ms=4, label="DH: |d| [m]")
     ax.loglog(tilt, change, "--", color=palette("trace"), marker="s", ms=4, label="screw: |change of S|")
     ax.axvline(marked, color=INK, lw=0.8, ls=":")
     ax.set(xlabel="tilt of axis 3 [rad]", ylabel="size [m], [rad]")
-    ax.grid(alpha=0.3)
     ax.legend(frameon=False)
-    _show()
+    show()
 
 
 def errors_along_path(errors: Mapping[str, np.ndarray], ways: int) -> None:
     """Distances along a path that can be followed in several ways: name -> a number a point, way by way."""
-    import matplotlib.pyplot as plt
-
-    figure, ax = plt.subplots(figsize=(7.4, 2.8), layout="constrained")
+    ax = blank((7.4, 2.8))
     for (name, values), color, style in zip(errors.items(), ("accent", "trace"), ("-", "--"), strict=False):
         first, *others = np.reshape(values, (ways, -1))
         for curve in others:
             ax.plot(np.linspace(0, 1, len(curve)), curve, style, color=palette(color), lw=0.6, alpha=0.5)
         ax.plot(np.linspace(0, 1, len(first)), first, style, color=palette(color), lw=2.2, label=name)
     ax.set(xlabel="λ, share of the path", ylabel="tool off by", ylim=(0, None))
-    ax.grid(alpha=0.3)
-    figure.legend(frameon=False, loc="outside right upper")
-    _show()
+    ax.figure.legend(frameon=False, loc="outside right upper")
+    show()
 
 
 # -- parts of the pictures -------------------------------------------------------------------------------
-
-
-def _show():
-
-    show()
 
 
 def _triad(ax, T, length):
@@ -231,7 +217,7 @@ def _scene(ax, robot, theta, frames, names, fan, view=(16, -62)):
         crowd = next((c for c in crowds if np.linalg.norm(c[0] - T[:3, 3]) < CROWD), None)
         if crowd is None:
             crowds.append(crowd := [T[:3, 3], 0])
-        moved[:3, 3] += crowd[1] * fan
+        moved[:3, 3] += crowd[1] * np.array(fan)
         crowd[1] += 1
         ax.plot(*np.array([T[:3, 3], moved[:3, 3]]).T, lw=1, ls=":", color=INK)
         _triad(ax, moved, 0.11)

@@ -7,15 +7,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
-from coursekit.view.figures import INK, palette, show
+from coursekit.view.figures import INK, blank, in_space, palette, show
 from coursekit.view.figures.side import INTO, OUT_OF, draw_arm, mark_axis, mark_frame, side_view
 
 
 def drawing(robot: Robot) -> None:
     """Side view of an arm like the KR6 at zero with its lengths in mm."""
-    import matplotlib.pyplot as plt
-
-    _, ax = plt.subplots(figsize=(8.2, 4.4), layout="constrained")
+    ax = blank((8.2, 4.4))
     draw_arm(ax, robot)
     show()
 
@@ -25,9 +23,7 @@ def steps(directions: Sequence[str], P_mm: ArrayLike) -> None:
 
     directions: a letter per joint, "z", "y", ...; P_mm (n + 1, 3), the last step leads to the tool.
     """
-    import matplotlib.pyplot as plt
-
-    _, ax = plt.subplots(figsize=(7.4, 5.4), layout="constrained")
+    ax = blank((7.4, 5.4), grid=0.2)
     corners = [(0, 0), *np.asarray(P_mm, dtype=float).cumsum(axis=0)[:, [0, 2]]]
     flat = np.array([p for p in corners for _ in (0, 1)])[1:-1]
     ax.plot(*flat.T, color=INK, lw=5, alpha=0.15)
@@ -43,7 +39,6 @@ def steps(directions: Sequence[str], P_mm: ArrayLike) -> None:
     mark_frame(ax, "T", corners[-1], [("x", (1, 0)), ("z", (0, 1))], beside=(8, -16))
     mark_frame(ax, "s", corners[0], [("x", (1, 0)), ("z", (0, 1))])
     ax.set(xlabel="x [mm]", ylabel="z [mm]", xlim=(-170, 760), ylim=(-90, 1170), aspect="equal")
-    ax.grid(alpha=0.2)
     show()
 
 
@@ -64,10 +59,8 @@ def telescope_arm() -> Robot:
 
 def telescope() -> None:
     """The arm with a slide whose M and S are to be read: its lengths A to E, five axes, both frames."""
-    import matplotlib.pyplot as plt
-
     A, B, C, D, E = 150, 600, 120, 700, 200  # mm
-    _, ax = plt.subplots(figsize=(8.2, 5.2), layout="constrained")
+    ax = blank((8.2, 5.2))
     corners = [(0, 0), (0, B), (A, B), (A, B + C), (A + D, B + C), (A + D, B + C - E)]
     side_view(ax, corners, [f"{name} = {x:g}" for name, x in zip("BACDE", (B, A, C, D, E), strict=True)])
     mark_axis(ax, "1", (0, 0.45 * B), (0, 1))
@@ -81,20 +74,14 @@ def telescope() -> None:
     show()
 
 
-def axes_in_space(
-    robot: Robot, along: Sequence[float] | np.ndarray = (0, 0, 0, 0.1, 0, -0.3), length: float = 0.16
-) -> None:
-    """Every joint axis of a robot at zero as an arrow with its number, and the line of links.
-
-    `along` shifts each arrow on its axis (m), so that arrows on one line stand apart.
-    """
-    import matplotlib.pyplot as plt
-
-    ax = plt.figure(figsize=(7.4, 4.8), layout="constrained").add_subplot(projection="3d")
-    ax.set_proj_type("ortho")
+def axes_in_space(robot: Robot) -> None:
+    """Every joint axis of an arm like the KR6 at zero as an arrow with its number, and the line of links."""
+    length = 0.16
+    ax = in_space((7.4, 4.8))
     points = robot.link_frames(np.zeros(robot.n))[:, :3, 3]
     elbow = points[2] + [0, 0, points[3, 2] - points[2, 2]]  # where the forearm begins
     ax.plot(*np.vstack([np.zeros(3), points[:3], elbow, points[3:]]).T, color=INK, lw=4, alpha=0.25)
+    along = (0, 0, 0, 0.1, 0, -0.3)  # arrows on one line stand apart
     for i, (point, w) in enumerate(zip(points, robot.S[:3].T, strict=True)):
         start = point + along[i] * w
         ax.quiver(*start, *(length * w), color=palette("axis"), lw=2, arrow_length_ratio=0.25)

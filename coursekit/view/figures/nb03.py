@@ -9,16 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from coursekit.kinematics import lie, subproblems
-from coursekit.view.figures import INK, palette, show
+from coursekit.view.figures import INK, blank, palette, show
 
 STYLES = (("accent", "o-"), ("trace", "s--"), ("body", "^-."), ("axis", "D:"))
 
 
 def triangle() -> None:
     """Shoulder, elbow and P from the side, elbow up and down, with alpha, beta, phi and psi. No scale."""
-    import matplotlib.pyplot as plt
-
-    _, axes = plt.subplots(1, 2, figsize=(8.4, 3.7), sharey=True, layout="constrained")
+    axes = blank((8.4, 3.7), 2, sharey=True)
     for ax, side, title in zip(axes, (1, -1), ("elbow up", "elbow down"), strict=True):
         _one_triangle(ax, side)
         ax.set_title(title, fontsize=10)
@@ -88,7 +86,7 @@ def _arc(ax, centre, size, low, high, name):
 def elbows(lengths: ArrayLike, solutions: Iterable[Sequence[float] | np.ndarray]) -> None:
     """The arm in its own plane for both (theta2, theta3): the upper elbow solid, the lower one dashed."""
     a1, d1, a2, a3, d4 = 1000 * np.asarray(lengths)
-    ax = _axes((6.4, 4.6))
+    ax = blank((6.4, 4.6))
     for (t2, t3), color, style, side in zip(
         solutions, ("accent", "trace"), ("-", "--"), (-1, 1), strict=True
     ):
@@ -107,7 +105,7 @@ def elbows(lengths: ArrayLike, solutions: Iterable[Sequence[float] | np.ndarray]
     ax.plot(*P, "D", ms=8, color=INK)
     ax.text(P[0] + 22, P[1] + 12, "P", color=INK, fontsize=12, style="italic")
     ax.set(xlabel="r: distance from axis 1 [mm]", ylabel="z [mm]", aspect="equal", xlim=(-620, 760))
-    _show()
+    show()
 
 
 def meetings() -> None:
@@ -184,7 +182,7 @@ def _two_circles(ax):
 
 def columns(theta: Sequence[float], lengths: Sequence[float], J: np.ndarray) -> None:
     """A planar arm of two links, and the velocity of its tip while one joint alone turns at 1 rad/s."""
-    ax = _axes((6.4, 4.2))
+    ax = blank((6.4, 4.2))
     t1, t2 = theta
     elbow = lengths[0] * _to(t1)
     tip = elbow + lengths[1] * _to(t1 + t2)
@@ -200,12 +198,12 @@ def columns(theta: Sequence[float], lengths: Sequence[float], J: np.ndarray) -> 
         ax.text(*end, name, color=palette(style), ha="right", va="center")
     ax.plot(*tip, "D", ms=7, color=INK)
     ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal", xlim=(-0.3, 0.8), ylim=(-0.1, 1.1))
-    _show()
+    show()
 
 
 def drift(change: np.ndarray) -> None:
     """How far each joint is from where it began, after every lap. change (laps, n) in radians."""
-    ax = _axes((6.4, 3.2))
+    ax = blank((6.4, 3.2))
     laps, n = change.shape
     for k, row in enumerate(np.degrees(change)):
         place = np.arange(1, n + 1) + 0.26 * (k - (laps - 1) / 2)
@@ -214,61 +212,48 @@ def drift(change: np.ndarray) -> None:
     ax.axhline(0, lw=0.8, color=INK)
     ax.set(xlabel="joint", ylabel="change of the joint [deg]", xticks=range(1, n + 1))
     ax.legend(frameon=False)
-    _show()
+    show()
 
 
 def error_along_path(error: ArrayLike) -> None:
     """FK(IK) - T, the largest entry, for every pose (rows) and branch (columns)."""
-    ax = _axes((6.4, 3.4))
+    ax = blank((6.4, 3.4))
     shown = np.maximum(error, 1e-17)
     ax.semilogy(shown, ".", ms=4, color=palette("ghost"), alpha=0.5)
     ax.semilogy(shown.max(axis=1), "-", lw=1.2, color=palette("accent"), label="largest of the eight")
     ax.axhline(2e-15, ls="--", lw=1, color=INK, label="2e-15")
     ax.set(xlabel="pose on the S", ylabel="largest entry of FK(IK(T)) − T [m], [1]", ylim=(1e-17, 1e-14))
     ax.legend(frameon=False, loc="upper right")
-    _show()
+    show()
 
 
 def newton(runs: Mapping[str, ArrayLike]) -> None:
     """Largest entry of FK - T_sd before each step. runs: label -> list of errors."""
-    ax = _axes((6.4, 3.6))
+    ax = blank((6.4, 3.6))
     for (label, errors), (color, style) in zip(runs.items(), STYLES, strict=False):
         ax.semilogy(np.maximum(errors, 1e-16), style, ms=5, color=palette(color), label=label)
     ax.set(xlabel="step", ylabel="largest entry of FK − T [m], [1]")
     ax.legend(frameon=False)
-    _show()
+    show()
 
 
 def rates(noise: Sequence[float] | np.ndarray, nearest: ArrayLike, converged: ArrayLike) -> None:
     """Shares in percent over the noise of the guess."""
-    ax = _axes((6.4, 3.4))
+    ax = blank((6.4, 3.4))
     ax.semilogx(noise, nearest, "o-", color=palette("accent"), label="of these, at the nearest solution")
     ax.semilogx(noise, converged, "s--", color=palette("trace"), label="converged")
     ax.set(xlabel="noise of the guess [rad per joint]", ylabel="share [%]", ylim=(0, 105), xticks=noise)
     ax.set_xticks([], minor=True)
     ax.set_xticklabels([f"{x:g}" for x in noise])
     ax.legend(frameon=False, loc="lower left")
-    _show()
+    show()
 
 
 def wandering(distance: ArrayLike, closest: float) -> None:
     """Distance to a target out of reach before each step, and the nearest that can be reached."""
-    ax = _axes((6.4, 3.4))
+    ax = blank((6.4, 3.4))
     ax.plot(distance, "o-", ms=3, lw=1, color=palette("trace"), label="Newton")
     ax.axhline(closest, ls="--", color=palette("accent"), label="closest pose found by going downhill")
     ax.set(xlabel="step", ylabel="distance from the target [m]", ylim=(0, None))
     ax.legend(frameon=False)
-    _show()
-
-
-def _axes(size):
-    import matplotlib.pyplot as plt
-
-    _, ax = plt.subplots(figsize=size, layout="constrained")
-    ax.grid(alpha=0.3)
-    return ax
-
-
-def _show():
-
     show()

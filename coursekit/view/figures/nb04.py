@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from coursekit.kinematics import singularity
 from coursekit.kinematics.robot import Robot
 from coursekit.view.chain import hinges
-from coursekit.view.figures import INK, axes_3d, limits_3d, palette, show
+from coursekit.view.figures import INK, axes_3d, blank, limits_3d, palette, show
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -99,9 +99,7 @@ def _sigma_over(robot, i, j, held):
 
 def singular_map(robot: Robot, theta: ArrayLike, i: int, j: int, marks: Mapping[str, ArrayLike]) -> None:
     """`draw_map` with marked configurations. marks: text -> (theta_i, theta_j) in radians."""
-    import matplotlib.pyplot as plt
-
-    _, ax = plt.subplots(figsize=(6.4, 4.2), layout="constrained")
+    ax = blank((6.4, 4.2), grid=0)
     draw_map(ax, robot, theta, i, j)
     for (name, place), marker in zip(marks.items(), "XosD", strict=False):
         ax.plot(*np.degrees(place), marker, color="#F07A2B", mec="w", ms=9)
@@ -114,10 +112,8 @@ def on_axis_1() -> None:
 
     Not to scale, so that every length can be seen.
     """
-    import matplotlib.pyplot as plt
-
     a1, d1, a2, a3, d4, theta2 = 130, 330, 450, 110, 420, -1.05
-    _, ax = plt.subplots(figsize=(5.6, 4.6), layout="constrained")
+    ax = blank((5.6, 4.6))
     elbow = np.array([a1 + a2 * np.cos(theta2), d1 - a2 * np.sin(theta2)])
     delta, rho = np.arctan2(a3, d4), np.hypot(a3, d4)
     bend = np.arccos(-elbow[0] / rho)
@@ -175,13 +171,10 @@ def lost_lines(robot: Robot, poses: Mapping[str, ArrayLike]) -> None:
 
 def two_smallest(angles: ArrayLike, values: np.ndarray) -> None:
     """The two smallest singular values over an angle. angles (k,) in radians, values (k, 2)."""
-    import matplotlib.pyplot as plt
-
-    _, ax = plt.subplots(figsize=(6.4, 3.2), layout="constrained")
+    ax = blank((6.4, 3.2))
     ax.plot(np.degrees(angles), values[:, 0], color=palette("trace"), label="second smallest")
     ax.plot(np.degrees(angles), values[:, 1], "--", color=palette("accent"), label="smallest")
     ax.set(xlabel="θ4 [deg]", ylabel="singular value of J", xticks=range(-180, 181, 60))
-    ax.grid(alpha=0.3)
     ax.legend(frameon=False)
     show()
 
@@ -193,14 +186,11 @@ def rates_near(
 
     joints: which to show, from 1, at most four; what: the distance in words, with its unit.
     """
-    import matplotlib.pyplot as plt
-
-    _, ax = plt.subplots(figsize=(6.4, 3.6), layout="constrained")
+    ax = blank((6.4, 3.6))
     for k, marker, color in zip(joints, "so^D", ("z", "accent", "trace", "axis"), strict=False):
         rate = np.abs(rates[:, k - 1])
         ax.loglog(distance, rate, color=palette(color), marker=marker, ms=5, label=f"joint {k}")
         ax.axhline(limits[k - 1], color=palette(color), lw=0.8, ls=":")
     ax.set(xlabel=what, ylabel="joint rate [rad/s]")
-    ax.grid(alpha=0.3)
     ax.legend(frameon=False)
     show()

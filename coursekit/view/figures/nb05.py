@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import jacobians
 from coursekit.kinematics.robot import Robot
-from coursekit.view.figures import palette, show
+from coursekit.view.figures import blank, in_space, limits_3d, palette, show
 
 PARTS = {"linear": ("trace", "m/s"), "angular": ("accent", "rad/s")}
 SHORTEST = 1e-11  # rad
@@ -19,25 +19,19 @@ LINES = (("o", "-", "accent"), ("s", "--", "trace"), ("^", "-.", "axis"), ("D", 
 
 def differences(step: ArrayLike, central: ArrayLike, forward: ArrayLike) -> None:
     """Largest error of two difference quotients over the step size, both axes logarithmic."""
-    import matplotlib.pyplot as plt
-
-    _, ax = plt.subplots(figsize=(5.8, 3.3), layout="constrained")
+    ax = blank((5.8, 3.3))
     for error, name, (marker, line, color) in zip(
         (forward, central), ("forward", "central"), LINES, strict=False
     ):
         ax.loglog(step, error, line, marker=marker, ms=4, color=palette(color), label=name)
     ax.set(xlabel="step [rad]", ylabel="largest error of an entry of J\n(omega: 1; v: m)")
-    ax.grid(alpha=0.3)
     ax.legend(frameon=False)
     show()
 
 
 def ellipsoids(robot: Robot, **thetas: ArrayLike) -> None:
     """Linear (above) and angular (below) velocity ellipsoid, one column per named configuration."""
-    import matplotlib.pyplot as plt
-
-    shape: dict = {"subplot_kw": {"projection": "3d"}, "squeeze": False, "layout": "constrained"}
-    _, axes = plt.subplots(2, len(thetas), figsize=(6.0, 5.6), **shape)
+    axes = in_space((6.0, 5.6), len(thetas), nrows=2, squeeze=False)
     for row, (part, (color, unit)) in zip(axes, PARTS.items(), strict=True):
         found = {
             name: jacobians.ellipsoid(robot.jacobian_geometric(theta), part) for name, theta in thetas.items()
@@ -45,32 +39,29 @@ def ellipsoids(robot: Robot, **thetas: ArrayLike) -> None:
         room = 1.1 * max(e.lengths[0] for e in found.values())
         for ax, (name, e) in zip(row, found.items(), strict=True):
             _ellipsoid(ax, e, palette(color))
-            _box(ax, room, unit)
+            limits_3d(ax, 3 * [(-room, room)], (0.5 if room < 1 else 1) * np.arange(-9, 10), unit)
+            ax.set_box_aspect([1, 1, 1], zoom=0.88)
+            ax.view_init(16, -72)
             ax.set_title(f"{part}, {name}", fontsize=11, y=0.94)
     show()
 
 
 def steps(runs: Mapping[str, ArrayLike]) -> None:
     """How long each step of several runs is. runs: name -> configurations (m, n), the start first."""
-    import matplotlib.pyplot as plt
-
-    _, ax = plt.subplots(figsize=(5.8, 3.3), layout="constrained")
+    ax = blank((5.8, 3.3))
     for (name, rows), (marker, line, color) in zip(runs.items(), LINES, strict=False):
         length = np.linalg.norm(np.diff(rows, axis=0), axis=1)
         count = np.arange(1, len(length) + 1)
         seen = length > SHORTEST  # below it, nothing but rounding
         ax.semilogy(count[seen], length[seen], line, marker=marker, ms=4, color=palette(color), label=name)
     ax.set(xlabel="step", ylabel="length of the step [rad]", ylim=(SHORTEST, 30))
-    ax.grid(alpha=0.3)
     ax.legend(frameon=False)
     show()
 
 
 def damping(dampings: Iterable[float], gain: float = 1.0) -> None:
     """What one step makes of an error of length 1 along a singular direction, over its sigma."""
-    import matplotlib.pyplot as plt
-
-    _, ax = plt.subplots(figsize=(5.6, 3.0), layout="constrained")
+    ax = blank((5.6, 3.0))
     sigma = np.logspace(-3, 0.5, 200)
     ax.loglog(sigma, 1 / sigma, color=palette("bone"), label="Newton: 1/σ")
     ax.loglog(sigma, gain * sigma, ":", color=palette("axis"), lw=1.8, label=f"transpose: gσ, g = {gain:g}")
@@ -78,16 +69,13 @@ def damping(dampings: Iterable[float], gain: float = 1.0) -> None:
         ax.loglog(sigma, sigma / (sigma**2 + k**2), line, color=palette(color), lw=1.8, label=f"k = {k:g}")
         ax.plot(k, 1 / (2 * k), marker, color=palette(color), ms=7)
     ax.set(xlabel="singular value σ", ylabel="step for an error of 1", ylim=(1e-2, 1e3))
-    ax.grid(alpha=0.3)
     ax.legend(frameon=False, fontsize=9)
     show()
 
 
 def planar_velocity(theta: ArrayLike, lengths: ArrayLike, v: ArrayLike) -> None:
     """A planar 2R, its base frame B and tool frame E, and the velocity v (2,) of its tool, m/s along B."""
-    import matplotlib.pyplot as plt
-
-    _, ax = plt.subplots(figsize=(5.2, 3.9), layout="constrained")
+    ax = blank((5.2, 3.9))
     angles = np.cumsum(theta)
     links = np.array(lengths)[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])
     joints = np.vstack([[0, 0], np.cumsum(links, axis=0)])
@@ -102,7 +90,6 @@ def planar_velocity(theta: ArrayLike, lengths: ArrayLike, v: ArrayLike) -> None:
     ax.annotate("v", joints[-1] + 1.12 * np.asarray(v, float), color=palette("accent"), ha="center")
     ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
     ax.margins(0.2)
-    ax.grid(alpha=0.3)
     show()
 
 
@@ -124,15 +111,3 @@ def _arrow(ax, start, end, color):
     """From start to end; the limits of the axes grow with it."""
     ax.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": color, "lw": 2, "shrinkA": 0})
     ax.plot(*np.transpose([start, end]), alpha=0)
-
-
-def _box(ax, room, unit):
-    """Equal axes from -room to room, with few ticks."""
-    ax.set_proj_type("ortho")
-    tick = 0.5 if room < 1 else 1
-    for letter in "xyz":
-        ax.set(**{f"{letter}lim": (-room, room), f"{letter}label": f"{letter} [{unit}]"})
-        ax.set(**{f"{letter}ticks": tick * np.arange(-int(room / tick), int(room / tick) + 1)})
-    ax.set_box_aspect([1, 1, 1], zoom=0.88)
-    ax.tick_params(labelsize=8, pad=-2)
-    ax.view_init(16, -72)

@@ -9,27 +9,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from coursekit.kinematics import path
-from coursekit.view.figures import palette, show
+from coursekit.view.figures import blank, in_space, palette, show
 
 STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1, 1, 1)))
 
 
-def on_sphere(
-    points: np.ndarray,
-    T: np.ndarray,
-    every: int = 10,
-    center: Iterable[float] = path.SPHERE_CENTER,
-    radius: float = path.SPHERE_RADIUS,
-) -> None:
+def on_sphere(points: np.ndarray, T: np.ndarray) -> None:
     """A curve on its sphere with every tenth tool frame: x outward, y along the curve."""
-    import matplotlib.pyplot as plt
-
-    figure = plt.figure(figsize=(5.0, 4.1), layout="constrained")
-    ax = figure.add_subplot(projection="3d")
-    ax.set_proj_type("ortho")
-    _globe(ax, center, radius, np.pi)
+    ax = in_space((5.0, 4.1))
+    _globe(ax, path.SPHERE_CENTER, path.SPHERE_RADIUS, np.pi)
     ax.plot(*points.T, color=palette("bone"), lw=1.5)
-    for pose in T[::every]:
+    for pose in T[::10]:
         for k, letter in enumerate("xyz"):
             ends = np.array([pose[:3, 3], pose[:3, 3] + 0.08 * pose[:3, k]])
             ax.plot(*ends.T, color=palette(letter), lw=1.8)
@@ -45,9 +35,7 @@ def on_sphere(
 
 def attitudes(s: ArrayLike, quaternions: np.ndarray, zyx: np.ndarray, rotation_vectors: np.ndarray) -> None:
     """Three ways to write one attitude along the path, one panel each."""
-    import matplotlib.pyplot as plt
-
-    _, axes = plt.subplots(1, 3, figsize=(8.6, 2.8), layout="constrained")
+    axes = blank((8.6, 2.8), 3, grid=0.25)
     panels = (
         ("unit quaternion", quaternions, ["w", "x", "y", "z"], "component"),
         ("ZYX angles", zyx, ["yaw", "pitch", "roll"], "angle [rad]"),
@@ -62,9 +50,7 @@ def attitudes(s: ArrayLike, quaternions: np.ndarray, zyx: np.ndarray, rotation_v
 
 def wrapped_and_continuous(s: np.ndarray, wrapped: np.ndarray, continuous: np.ndarray, joint: int) -> None:
     """One joint of one branch: angles within half a turn beside the continuous ones, and where they jump."""
-    import matplotlib.pyplot as plt
-
-    _, axes = plt.subplots(1, 2, figsize=(7.4, 2.8), layout="constrained", sharey=True)
+    axes = blank((7.4, 2.8), 2, grid=0, sharey=True)
     jump = np.abs(np.diff(wrapped)) > np.pi
     for ax, q, title in ((axes[0], wrapped, "within half a turn"), (axes[1], continuous, "continuous")):
         ax.plot(s, q, "o-", ms=2.5, lw=1, color=palette("trace"))
@@ -80,13 +66,10 @@ def wrapped_and_continuous(s: np.ndarray, wrapped: np.ndarray, continuous: np.nd
 
 def rates(points: ArrayLike, rate: Iterable[np.ndarray], bounds: Mapping[str, ArrayLike]) -> None:
     """Joint rates (m - 1, n) over the path, one panel per bound; dotted: that of the limiting joint."""
-    import matplotlib.pyplot as plt
-
-    count = len(bounds)
-    _, axes = plt.subplots(1, count, figsize=(4.0 * count, 3.0), layout="constrained", squeeze=False)
+    axes = np.ravel(blank((4.0 * len(bounds), 3.0), len(bounds), grid=0.25))
     step = path.steps(points)
     middle = np.cumsum(step) - step / 2
-    for ax, (title, bound), turned in zip(axes[0], bounds.items(), rate, strict=True):
+    for ax, (title, bound), turned in zip(axes, bounds.items(), rate, strict=True):
         _lines(ax, middle, turned, [f"joint {j + 1}" for j in range(turned.shape[1])])
         use = np.abs(turned) / bound
         worst = np.argwhere(use > use.max() - 1e-6)[0]  # the first, where a symmetric path has two
@@ -95,7 +78,7 @@ def rates(points: ArrayLike, rate: Iterable[np.ndarray], bounds: Mapping[str, Ar
             ax.axhline(height, color=palette("accent"), ls=":", lw=1.4)
         ax.plot(middle[worst[0]], turned[*worst], "o", ms=8, mfc="none", color=palette("accent"))
         ax.set(title=title, xlabel="distance along the path [m]", ylabel="joint rate [rad/s]")
-    axes[0, 0].legend(frameon=False, fontsize=7, ncols=2, loc="lower left", bbox_to_anchor=(0, 0.06))
+    axes[0].legend(frameon=False, fontsize=7, ncols=2, loc="lower left", bbox_to_anchor=(0, 0.06))
     show()
 
 
@@ -104,11 +87,7 @@ def projection(letter: np.ndarray, points: np.ndarray, which: int) -> None:
 
     letter (m, 2): Y, Z of the plane; points (m, 3) on the sphere; which: the one whose line is drawn.
     """
-    import matplotlib.pyplot as plt
-
-    figure = plt.figure(figsize=(5.2, 4.2), layout="constrained")
-    ax = figure.add_subplot(projection="3d")
-    ax.set_proj_type("ortho")
+    ax = in_space((5.2, 4.2))
     _globe(ax, path.SPHERE_CENTER, path.SPHERE_RADIUS, 2 * np.pi)
     pole = np.array(path.SPHERE_CENTER) - [path.SPHERE_RADIUS, 0, 0]
     flat = np.column_stack([np.full(len(letter), path.SPHERE_RADIUS), letter[:, 0], 0.5 + letter[:, 1]])
@@ -130,16 +109,13 @@ def angle_axis_errors(gap: ArrayLike, angle: np.ndarray, product: np.ndarray) ->
 
     angle, product (2, m): from the trace and 2 sin theta, and from the quaternion; drawn up to 10 rad.
     """
-    import matplotlib.pyplot as plt
-
-    _, axes = plt.subplots(1, 2, figsize=(7.2, 2.8), layout="constrained", sharey=True)
+    axes = blank((7.2, 2.8), 2, sharey=True)
     for ax, both in zip(axes, (angle, product), strict=True):
         for error, line, color, name in zip(
             both, ("o-", "s--"), ("accent", "trace"), ("textbook", "from the quaternion"), strict=True
         ):
             ax.loglog(gap, np.clip(error, 1e-17, 10), line, ms=3, color=palette(color), label=name)
         ax.set(ylim=(3e-18, 30))
-        ax.grid(alpha=0.3)
     axes[0].set(title="near no turn", xlabel="θ [rad]", ylabel="error of θ [rad]")
     axes[1].set(title="near half a turn", xlabel="π - θ [rad]", ylabel="error of β [rad]")
     axes[0].legend(frameon=False, fontsize=8)
@@ -177,9 +153,7 @@ def walk(axes: Sequence[np.ndarray], steps: Sequence[np.ndarray]) -> None:
 
     axes (n, 3): unit vectors along x, y or z; steps (n + 1, 3) in metres, in the plane of x and z.
     """
-    import matplotlib.pyplot as plt
-
-    _, ax = plt.subplots(figsize=(5.6, 4.2), layout="constrained")
+    ax = blank((5.6, 4.2), grid=0.25)
     ends = np.cumsum(steps, axis=0)[:, [0, 2]]
     names = ["01", *(f"{i}{i + 1}" for i in range(1, len(axes))), f"{len(axes)}T"]
     for step, end, name in zip(steps, ends, names, strict=True):
@@ -206,21 +180,17 @@ def walk(axes: Sequence[np.ndarray], steps: Sequence[np.ndarray]) -> None:
     ax.plot(x, z, "s", ms=7, color=palette("accent"))
     ax.text(x + 0.02, z, "T", color=palette("accent"), va="center")
     ax.set(xlabel="x [m]", ylabel="z [m]", aspect="equal", xlim=(-0.25, 0.9), ylim=(-0.05, 1.02))
-    ax.grid(alpha=0.25)
     show()
 
 
 def errors(s: ArrayLike, curves: Mapping[str, ArrayLike]) -> None:
     """Distance from the tool to its point of the path, in metres, for several forward kinematics."""
-    import matplotlib.pyplot as plt
-
-    _, ax = plt.subplots(figsize=(6.4, 3.0), layout="constrained")
+    ax = blank((6.4, 3.0), grid=0.25)
     for (name, error), line, color in zip(
         curves.items(), STYLES, ("bone", "trace", "axis", "accent", "x"), strict=False
     ):
         ax.semilogy(s, np.maximum(error, 1e-18), ls=line, lw=1.5, color=palette(color), label=name)
     ax.set(xlabel="distance along the path λ [m]", ylabel="error of the tool [m]", ylim=(1e-18, 10))
-    ax.grid(alpha=0.25)
     ax.legend(frameon=False, fontsize=8, ncols=2, loc="center", bbox_to_anchor=(0.5, 0.62))
     show()
 
@@ -230,9 +200,7 @@ def constancy(points: np.ndarray, speeds: Mapping[str, ArrayLike], third: np.nda
 
     speeds: name -> (m - 1,) tool speed in each step, m/s; third (k, m): joint 3 of k branches, rad.
     """
-    import matplotlib.pyplot as plt
-
-    _, axes = plt.subplots(1, 3, figsize=(9.0, 2.8), layout="constrained")
+    axes = blank((9.0, 2.8), 3, grid=0.25)
     step = path.steps(points)
     s = np.append(0.0, np.cumsum(step))
     axes[0].plot(s[:-1] + step / 2, 1e9 * (step - step.mean()), color=palette("trace"), lw=1.4)
@@ -246,7 +214,6 @@ def constancy(points: np.ndarray, speeds: Mapping[str, ArrayLike], third: np.nda
     axes[2].set(title="joint 3, from where it begins", ylabel="angle [rad]")
     for ax in axes:
         ax.set(xlabel="distance along the path λ [m]")
-        ax.grid(alpha=0.25)
     show()
 
 
@@ -267,4 +234,3 @@ def _lines(ax, s, values, names):
 
     for j, (name, column) in enumerate(zip(names, values.T, strict=True)):
         ax.plot(s, column, ls=STYLES[j], color=colormaps["viridis"](0.9 * j / len(names)), lw=1.7, label=name)
-    ax.grid(alpha=0.25)
