@@ -6,7 +6,7 @@ words; the page alone shows it while a reader points at one (static/point.js), s
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 import traitlets
@@ -58,6 +58,15 @@ def numbered(letter: str, k: int) -> str:
     'S₁₂'
     """
     return letter + str(k).translate(_BELOW)
+
+
+def series(letter: str, says: Iterable[str], word: str = "") -> list[Piece]:
+    """A part for each of `says`: the letter numbered, the word (else the letter) numbered, and what it says.
+
+    >>> series("v", ["the first"], "theta")
+    [('v₁', 'theta1', 'the first')]
+    """
+    return [(numbered(letter, k), f"{word or letter}{k}", said) for k, said in enumerate(says, 1)]
 
 
 # --- words of a scene ---

@@ -1,7 +1,6 @@
 """Predict in the picture: a question in words, a point to drag where the answer is, and how near it came.
 
 class _Screws(Explorer):
-    predicts = True
     def begin(self, number): ...          # puts the controls where question `number` begins
     def question(self, values): ...       # a Question, or in words why there is none
 """

@@ -1,6 +1,6 @@
 """The explorers of the six notebooks, and the idiom that they share."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, ClassVar
 
 import ipywidgets
@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
 from coursekit.view import mine, pointing, sketch
-from coursekit.view.controls import Control, JointSliders, Slider, Sliders
+from coursekit.view.controls import Choice, Control, JointSliders, Slider, Sliders
 from coursekit.view.panel import Panel
 from coursekit.view.prediction import ROOT, Prediction
 from coursekit.view.questions import Question
@@ -20,7 +20,9 @@ class Explorer:
     """One open explorer: what it remembers from one change to the next are its attributes, and nothing else.
 
     A subclass draws what stays in its constructor, and answers every change of a control twice: `update`
-    moves what is drawn, `words` says the numbers of the same `values`. `open` makes the panel.
+    moves what is drawn, `words` says the numbers of the same `values`. Where it may be opened for several
+    arms, `show` draws another one. What the student's function `f` says is drawn by `_f(sketch, values)`,
+    after `update`, which gives the words for it. `open` makes the panel.
     """
 
     name: ClassVar[str]  # of the panel
@@ -28,15 +30,15 @@ class Explorer:
     opener: ClassVar[str]  # the function of `view` that opens it
     in_space: ClassVar[bool] = True  # the space frame is drawn
     computed: ClassVar[tuple[str, ...]] = ()  # paths of what only `update` can place for another theta
-    predicts: ClassVar[bool] = False  # it asks questions: `begin`, `question`, `secret`
 
-    def __init__(self, robot: Robot, student: Any = None) -> None:
+    def __init__(self, student: Any, robot: Robot, *others: Robot) -> None:
         self.robot = robot
+        self.arms = {arm.name: arm for arm in (robot, *others)}
         self.mine = mine.Mine(student, self.opener)
         self.scene = Scene()
         self.joints: JointSliders | None = None  # those of theta, where there are some
         self.panel: Panel | None = None
-        self.prediction: Prediction | None = None  # made with the panel, where there are questions
+        self.prediction = Prediction(self.scene)
 
     @property
     def frame(self) -> int | None:
@@ -51,6 +53,10 @@ class Explorer:
     def below(self) -> Sequence[ipywidgets.Widget]:
         """What stands under the picture: plots and tables."""
         return []
+
+    def show(self, robot: Robot) -> None:
+        """Draw this one of the arms in place of the other."""
+        raise NotImplementedError
 
     def update(self, values: dict[str, Any]) -> None:
         """Make the scene show these values of the controls, in radians and metres."""
@@ -67,8 +73,8 @@ class Explorer:
             raise ValueError(f"{self.robot.name} has {n} joints: theta must be ({n},), got {theta.shape}")
         self.joints.show(theta)
 
-    def words(self, values: dict[str, Any]) -> str:
-        """The numbers of the picture, for everyone."""
+    def words(self, values: dict[str, Any]) -> Iterable[str]:
+        """Lines: the numbers of the picture, for everyone."""
         raise NotImplementedError
 
     def formula(self, values: dict[str, Any]) -> pointing.Lines:
@@ -88,57 +94,55 @@ class Explorer:
     @property
     def number(self) -> int:
         """Of the question that is asked."""
-        return self.prediction.number if self.prediction else 0
+        return self.prediction.number
 
     @property
     def asking(self) -> bool:
         """Whether a question is open."""
-        return self.prediction is not None and self.prediction.is_open
-
-    def yours(self, name: str, values: dict[str, Any]) -> str:
-        """Draw what the student's function of this name says for these values; the words for it.
-
-        Called after `update`. `self.mine.ask(name, ...)` calls the function.
-        """
-        raise NotImplementedError
-
-    def sketch(self, name: str) -> sketch.Sketch:
-        """What draws for the student's function of this name."""
-        several = len(self.mine.functions) > 1
-        return sketch.Sketch(self.scene, name, f"yours: {name}" if several else "yours")
-
-    def more(self) -> Sequence[Control]:
-        """The controls that the student's functions bring along."""
-        return []
+        return self.prediction.is_open
 
     def _show(self, values):
+        if values.get("robot", self.robot) is not self.robot:
+            self.scene.remove(sketch.ROOT)
+            self.show(values["robot"])
         self.update(values)
-        if self.prediction and self.panel:
-            self._ask(self.prediction, values["predict"])
+        if self.panel:
+            self._ask(values["predict"])
         live = self.panel is not None and self.panel.live
-        waits = self.mine.look(lambda name: self.yours(name, values), self.scene, live)
+        waits = self.mine.look(lambda name: self._yours(name, values), self.scene, live)
         self.scene.said = self.mine.words(timed=False)
         if waits and self.panel:
             self.panel.late = True
 
-    def _ask(self, prediction, on):
-        if prediction.begins(on, self.robot):
+    def _ask(self, on):
+        if self.prediction.begins(on, self.robot):
             self.panel.end_motion()
-            self.begin(prediction.number)
+            self.begin(self.number)
             self.update(self.panel.values)
-        prediction.ask(self.question(self.panel.values) if on else None, self.frame is None)
+        self.prediction.ask(self.question(self.panel.values) if on else None, self.frame is None)
         if self.asking:
             self.secret()
 
+    def _more(self):
+        """The controls that the student's functions bring along."""
+        return []
+
+    def _yours(self, name, values):
+        label = f"yours: {name}" if len(self.mine.functions) > 1 else "yours"
+        return getattr(self, f"_{name}")(sketch.Sketch(self.scene, name, label), values)
+
     def _say(self, values):
-        asked = self.prediction.words() if self.prediction else []
-        return "\n".join([*asked, self.words(values), *self.mine.words()])
+        return "\n".join([*self.prediction.words(), *self.words(values), *self.mine.words()])
+
+    def _drive_to(self, theta):
+        """A motion to theta (n,), from where the arm stands."""
+        self.panel.play(np.linspace(self.panel.values["theta"], theta, 31))
 
     def open(self, height: int, theta: ArrayLike | None = None) -> Panel:
         """The panel, `height` pixels of picture, the arm at theta (n,) where that is given."""
-        self.prediction = Prediction(self.scene) if self.predicts else None
-        asks = self.prediction.controls() if self.prediction else []
-        controls, below = [*self.controls(), *self.more(), *asks], self.below()
+        picker = [Choice("robot", self.arms)] if len(self.arms) > 1 else []
+        controls = [*picker, *self.controls(), *self._more(), *self.prediction.controls()]
+        below = self.below()
         if theta is not None:
             self.start_at(np.asarray(theta, float))
         if self.in_space:

@@ -1,18 +1,18 @@
 """Notebook 01: one arm by three conventions, and their frames side by side."""
 
 from collections.abc import Callable
-from typing import Any
+from itertools import accumulate
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from coursekit.kinematics import dh, lie, robots
+from coursekit.kinematics import lie, robots
 from coursekit.kinematics.robot import Robot
 from coursekit.view import pointing, questions, text
-from coursekit.view.controls import Choice, Toggle, joint_sliders
+from coursekit.view.controls import Toggle, joint_sliders
 from coursekit.view.explorers import Explorer
 from coursekit.view.panel import Panel
-from coursekit.view.sketch import ROOT, ZERO, Trouble
+from coursekit.view.sketch import ZERO, Trouble
 
 
 def explore(
@@ -51,25 +51,19 @@ def explore(
 
 class _Conventions(Explorer):
     name, title, opener = "conventions", "Explorer of DH and PoE", "explore"
-    predicts = True
 
     def __init__(self, arms, mine):
-        super().__init__(arms[0], mine)
-        self.arms = {arm.name: arm for arm in arms}
+        super().__init__(mine, *arms)
         self.joints = joint_sliders(max(arms, key=lambda arm: arm.n))
         self.show(self.robot)
 
     def controls(self):
-        picker = [Choice("robot", self.arms)] if len(self.arms) > 1 else []
-        switches = {"standard": "standard DH frames", "modified": "modified DH frames"}
-        switches |= {"screws": "screw axes", "skeleton": "skeleton"}
-        return [*picker, self.joints, *(Toggle(name, label) for name, label in switches.items())]
+        frames = [Toggle(name, f"{name} DH frames") for name in ("standard", "modified")]
+        return [self.joints, *frames, Toggle("screws", "screw axes"), Toggle("skeleton")]
 
     def show(self, robot):
         """The arm with its tool frame and both sets of DH frames, each fixed to a link."""
         self.robot, scene = robot, self.scene
-        scene.remove("/ck/robot")
-        scene.remove(ROOT)
         self.arm = scene.robot(robot)
         scene.frame(self.arm.link(robot.n) + "/tool", robot.M, letter="tool")
         pointing.axes(scene, self.arm)
@@ -88,8 +82,6 @@ class _Conventions(Explorer):
         self.joints.fit(robot)
 
     def update(self, values):
-        if values.get("robot", self.robot) is not self.robot:
-            self.show(values["robot"])
         self.arm.theta = self.joints.get()
         self.arm.look(solid=not values["skeleton"], skeleton=values["skeleton"])
         self.arm.show_axes(values["screws"])
@@ -107,31 +99,27 @@ class _Conventions(Explorer):
             x, y, z = np.round(1000 * T[:3, 3], 3) + 0.0
             lines.append(f"{name:<24} x = {x:9.3f}  y = {y:9.3f}  z = {z:9.3f} mm")
         if len(poses) == 1:
-            return "\n".join(
-                [*lines, "this arm is given by its screws alone; there is no DH table to compare with"]
-            )
+            return [*lines, "this arm is given by its screws alone; there is no DH table to compare with"]
         matrices = np.array(list(poses.values()))
         apart = float(np.max(matrices.max(axis=0) - matrices.min(axis=0)))
         agree = f"largest difference between any two matrix entries: {apart:.1e}"
-        return "\n".join([*lines, agree, *self.far])
+        return [*lines, agree, *self.far]
 
     def formula(self, values):
         """The product of exponentials, and each table as a product of its rows."""
-        theta, joints = values["theta"], range(1, self.robot.n + 1)
-        product: list[pointing.Piece] = ["T = "]
-        for k, S in zip(joints, self.robot.S.T, strict=True):
-            says = f"joint {k}: S{k} = {text.row(S)} at zero, theta{k} = {self.shown(k, theta)}"
-            product.append(
-                (pointing.numbered("e^[S", k) + "]" + pointing.numbered("θ", k), f"theta{k}", says)
+        theta = values["theta"]
+        turns = [
+            (
+                pointing.numbered("e^[S", k) + "]" + pointing.numbered("θ", k),
+                f"theta{k}",
+                f"joint {k}: S{k} = {text.row(S)} at zero, theta{k} = {self.shown(k, theta)}",
             )
-        product.append(("M", "M", f"the tool at zero: {text.pose(self.robot.M)}"))
-        lines = [product]
+            for k, S in enumerate(self.robot.S.T, 1)
+        ]
+        lines = [["T = ", *turns, ("M", "M", f"the tool at zero: {text.pose(self.robot.M)}")]]
         for name, table in _tables(self.robot).items():
-            rows = [
-                (pointing.numbered("A", k), f"{name}{k}", pointing.row_says(table, k, theta[k - 1], name))
-                for k in joints
-            ]
-            lines.append([f"{name} DH:  T = ", *rows])
+            rows = (pointing.row_says(table, k, q, name) for k, q in enumerate(theta, 1))
+            lines.append([f"{name} DH:  T = ", *pointing.series("A", rows, name)])
         return lines
 
     def shown(self, k, theta):
@@ -155,63 +143,62 @@ class _Conventions(Explorer):
         end = theta + by * np.eye(robot.n)[j]
         goes = f"theta{j + 1} goes from {self.shown(j + 1, theta)} to {self.shown(j + 1, end)}"
         asked = f"{goes}. Where will the tool be? Drag the point there."
-        play = lambda _right: self.panel.play(np.linspace(theta, end, 31))  # noqa: E731
-        return questions.where_after(robot, theta, j, by, asked, show=play)
+        return questions.where_after(robot, theta, j, by, asked, show=lambda _right: self._drive_to(end))
 
     # -- the arm by the student's functions
 
-    def yours(self, name, values):
-        """The frames of all links by this function, beside the right ones."""
-        frames = {
-            "dh_transform": self._by_links,
-            "mdh_transform": self._by_links,
-            "fk_dh": self._by_table,
-            "screw_exp": self._by_exponentials,
-            "fk_poe": self._by_screws,
-            "screws_from_dh": self._by_rows,
-        }[name]
-        self.note = ""
-        return self.sketch(name).poses(self.robot, *frames(name, values["theta"])) + self.note
+    def _fk_poe(self, sketch, values):
+        """Link k moves by the first k screws from where its frame stands at zero."""
+        theta, S, frames = values["theta"], self.robot.S, self.robot.link_frames(np.zeros(self.robot.n))
+        mine = [self.mine.ask("fk_poe", S[:, :k], M, theta[:k]) for k, M in enumerate(frames, 1)]
+        return self._beside(sketch, theta, np.array(mine))
 
-    def _by_screws(self, name, theta):
-        """Mine, right, at zero. Link k moves by the first k screws from where its frame stands at zero."""
-        at_zero = self.robot.link_frames(np.zeros(self.robot.n))
-        mine = [
-            self.mine.ask(name, self.robot.S[:, : k + 1], M, theta[: k + 1]) for k, M in enumerate(at_zero)
-        ]
-        return np.array(mine), self.robot.link_frames(theta), at_zero
+    def _screw_exp(self, sketch, values):
+        pairs = zip(self.robot.S.T, values["theta"], strict=True)
+        return self._carried(sketch, values, [self.mine.ask("screw_exp", S, float(q)) for S, q in pairs])
 
-    def _by_exponentials(self, name, theta):
-        at_zero = self.robot.link_frames(np.zeros(self.robot.n))
-        turns = [self.mine.ask(name, S, float(q)) for S, q in zip(self.robot.S.T, theta, strict=True)]
-        return _product(np.eye(4), turns) @ at_zero, self.robot.link_frames(theta), at_zero
-
-    def _by_links(self, name, theta):
-        table = self._table("standard" if name == "dh_transform" else "modified")
-        links = [self.mine.ask(name, *map(float, row)) for row in _rows(table, theta)]
-        return self._with_tool(table, theta, _product(table.base, links))
-
-    def _by_table(self, name, theta):
-        table = self._table("standard", turning=True)
-        rows, (n, one) = _rows(table), (len(theta), np.eye(4))
-        mine = [self.mine.ask(name, rows[:k], theta[:k], table.base, one) for k in range(1, n)]
-        mine += [self.mine.ask(name, rows, theta, table.base, table.tool)]
-        return np.array(mine), *_right(table, theta)
-
-    def _by_rows(self, name, theta):
+    def _screws_from_dh(self, sketch, values):
         table = self._table("modified", turning=True)
-        S = self.mine.ask(name, _rows(table), table.base)
+        S = self.mine.ask("screws_from_dh", _rows(table), table.base)
         if S.shape != self.robot.S.shape:
             raise Trouble(f"it returns {S.shape[1]} screws for {self.robot.n} rows")
         off = np.flatnonzero(np.abs(S - self.robot.S).max(axis=0) > ZERO) + 1
-        self.note = f"; your screws that are off: {', '.join(map(str, off))}" if off.size else ""
-        at_zero = self.robot.link_frames(np.zeros(self.robot.n))
-        moved = _product(np.eye(4), lie.exp6(S.T * theta[:, None]))
-        return moved @ at_zero, self.robot.link_frames(theta), at_zero
+        note = f"; your screws that are off: {', '.join(map(str, off))}" if off.size else ""
+        return self._carried(sketch, values, lie.exp6(S.T * values["theta"][:, None])) + note
 
-    def _with_tool(self, table, theta, frames):
+    def _dh_transform(self, sketch, values):
+        return self._rows_of(sketch, values, "dh_transform", "standard")
+
+    def _mdh_transform(self, sketch, values):
+        return self._rows_of(sketch, values, "mdh_transform", "modified")
+
+    def _fk_dh(self, sketch, values):
+        table, theta = self._table("standard", turning=True), values["theta"]
+        rows, one = _rows(table), np.eye(4)
+        mine = [self.mine.ask("fk_dh", rows[:k], theta[:k], table.base, one) for k in range(1, len(theta))]
+        mine += [self.mine.ask("fk_dh", rows, theta, table.base, table.tool)]
+        return self._beside(sketch, theta, np.array(mine), table)
+
+    def _rows_of(self, sketch, values, name, convention):
+        """The arm by the student's transform of each row of its table."""
+        table = self._table(convention)
+        rows = _rows(table, values["theta"])
+        frames = _product(table.base, [self.mine.ask(name, *map(float, row)) for row in rows])
         frames[-1] = frames[-1] @ table.tool
-        return frames, *_right(table, theta)
+        return self._beside(sketch, values["theta"], frames, table)
+
+    def _carried(self, sketch, values, turns):
+        """The arm by the student's motion of each joint, (n, 4, 4), which carries all that comes after it."""
+        frames = _product(np.eye(4), turns) @ self.robot.link_frames(np.zeros(self.robot.n))
+        return self._beside(sketch, values["theta"], frames)
+
+    def _beside(self, sketch, theta, mine, table=None):
+        """The student's frames (n, 4, 4), the tool's last, beside those of the table, or else of the arm."""
+        both = np.array([theta, np.zeros(len(theta))])
+        right = table.frames(both) if table else self.robot.link_frames(both)
+        if table:
+            right[:, -1] = right[:, -1] @ table.tool
+        return sketch.poses(self.robot, mine, *right)
 
     def _table(self, convention, turning=False):
         """The robot's table of this convention; Trouble where it has none, or `turning` joints slide."""
@@ -223,29 +210,15 @@ class _Conventions(Explorer):
         return table
 
 
-def _rows(table: dh.Table, q: ArrayLike | None = None) -> np.ndarray:
-    """(n, 4): a, alpha, d, theta; at q, or of the table alone."""
+def _rows(table, q=0):
+    """(n, 4): a, alpha, d, theta at q (n,), or of the table alone."""
     turns = np.array(table.joint_types) == "revolute"
-    moved: Any = np.zeros(table.n) if q is None else q
-    return np.column_stack(
-        [table.a, table.alpha, table.d + np.where(turns, 0, moved), table.theta + np.where(turns, moved, 0)]
-    )
-
-
-def _right(table, theta):
-    """The frames of a table at theta and at zero, (n, 4, 4), that of the tool last."""
-    frames = table.frames(np.array([theta, np.zeros(table.n)]))
-    frames[:, -1] = frames[:, -1] @ table.tool
-    return frames
+    return np.column_stack([table.a, table.alpha, table.d + q * ~turns, table.theta + q * turns])
 
 
 def _product(first, factors):
     """first A_1, first A_1 A_2, ...: (n, 4, 4)."""
-    products, T = [], first
-    for A in factors:
-        T = T @ A
-        products.append(T)
-    return np.array(products)
+    return np.array(list(accumulate(factors, np.matmul, initial=first))[1:])
 
 
 def _far_frames(robot, size):

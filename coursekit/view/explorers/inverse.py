@@ -59,10 +59,9 @@ class _Inverse(yours.Inverse, Explorer):
     """The target, its solutions, the one that is shown and Newton's run."""
 
     name, title, opener = "inverse", "Explorer of inverse kinematics", "explore_inverse"
-    predicts = True
 
     def __init__(self, robot, target, mine):
-        super().__init__(robot, mine)
+        super().__init__(mine, robot)
         self.solver = Solver(robot)
         start = _configuration(robot, self.solver.closed)
         self.T = robot.fk(start) if target is None else np.array(target, float)
@@ -193,16 +192,13 @@ class _Inverse(yours.Inverse, Explorer):
         return np.array([step.theta for step in self.found.history])
 
     def words(self, values):
-        lines = [f"target: {text.pose(self.T)}"]
-        if self.reached:
-            lines += [f"{self.ways.count}; {self.which()}"]
-        elif self.solver.closed:
-            lines += [f"out of reach: no solution; {self.which()}"]
-        else:
-            lines += [f"out of reach: no restart found a solution; {self.which()}"]
-        if not self.solver.closed:
-            lines += [f"no closed form for this arm: {self.solver.why_not}"]
-        return "\n".join([*lines, f"Newton from the guess: {self.verdict()}"])
+        closed = self.solver.closed
+        none = "no solution" if closed else "no restart found a solution"
+        yield f"target: {text.pose(self.T)}"
+        yield f"{self.ways.count if self.reached else f'out of reach: {none}'}; {self.which()}"
+        if not closed:
+            yield f"no closed form for this arm: {self.solver.why_not}"
+        yield f"Newton from the guess: {self.verdict()}"
 
     def say(self, theta):
         return text.joints(self.robot.joint_types, theta)

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from coursekit.kinematics import checks, ik, jacobians, robots, singularity
 from coursekit.kinematics.robot import Robot
 from coursekit.view import pointing, questions, text
+from coursekit.view.chain import hinges
 from coursekit.view.controls import Action, Slider, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.panel import Panel
@@ -71,10 +72,9 @@ class _Jacobians(yours.Jacobians, Explorer):
 
     name, title, opener = "jacobians", "Explorer of Jacobian methods", "explore_jacobians"
     computed = ("/ck/linear", "/ck/angular", "/ck/columns")
-    predicts = True
 
     def __init__(self, robot, poses, mine):
-        super().__init__(robot, mine)
+        super().__init__(mine, robot)
         self.poses = poses
         goal = robot.home
         # a goal that is singular itself shows nothing but slowness
@@ -161,16 +161,12 @@ class _Jacobians(yours.Jacobians, Explorer):
     def formula(self, values):
         """The columns of the Jacobian."""
         J = self.robot.jacobian_geometric(values["theta"])
-        columns = [
-            (
-                pointing.numbered("J", k),
-                f"J{k}",
-                f"column {k}: joint {k} at 1 {'m' if slides else 'rad'}/s moves the tool point by "
-                f"{text.row(column[3:])} m/s and turns the tool by {text.row(column[:3])} rad/s",
-            )
-            for k, (column, slides) in enumerate(zip(J.T, ~np.any(self.robot.S[:3], axis=0), strict=True), 1)
-        ]
-        return [["J(θ) = ( ", *columns, " )"]]
+        columns = (
+            f"column {k}: joint {k} at 1 {'rad' if turns else 'm'}/s moves the tool point by "
+            f"{text.row(column[3:])} m/s and turns the tool by {text.row(column[:3])} rad/s"
+            for k, (column, turns) in enumerate(zip(J.T, hinges(self.robot), strict=True), 1)
+        )
+        return [["J(θ) = ( ", *pointing.series("J", columns), " )"]]
 
     # -- which way does the tool go?
 
@@ -198,10 +194,18 @@ class _Jacobians(yours.Jacobians, Explorer):
         )
 
     def words(self, values):
-        robot, theta = self.robot, values["theta"]
-        return "\n".join(
-            [*_lengths(robot, values, self.scale), *_methods(robot, theta), self.comparison(values)]
+        J = self.robot.jacobian_geometric(values["theta"])
+        for part, scale in self.scale.items():
+            lengths, unit = jacobians.ellipsoid(J, part).lengths, UNIT[part]
+            shown = f"drawn {text.number(1000 * scale, 0)} mm per {unit}" if values[part] else "hidden"
+            yield f"{part:<8} half axes {text.row(lengths)} {unit}, {shown}"
+        apart = (
+            f"{name} {np.abs(method(self.robot, values['theta']) - J).max():.0e}"
+            for name, method in METHODS.items()
         )
+        yield f"largest difference to the exponentials: {', '.join(apart)}"
+        yield f"smallest singular value {text.number(singularity.sigma_min(self.robot, values['theta']))}"
+        yield self.comparison(values)
 
     def found(self, values):
         """Name -> Numeric from the start, computed once for the same sliders."""
@@ -284,22 +288,3 @@ def _nearly_singular(robot):
     """A start close to a singular configuration and inside the limits."""
     theta = np.array(STRETCHED) if robot.n == len(STRETCHED) else np.full(robot.n, NEARLY_ZERO)
     return np.clip(theta, robot.q_min, robot.q_max)
-
-
-def _lengths(robot, values, drawn):
-    """Half axes of the ellipsoids, and the scale of the picture."""
-    J = robot.jacobian_geometric(values["theta"])
-    for part, scale in drawn.items():
-        lengths, unit = jacobians.ellipsoid(J, part).lengths, UNIT[part]
-        shown = f"drawn {text.number(1000 * scale, 0)} mm per {unit}" if values[part] else "hidden"
-        yield f"{part:<8} half axes {text.row(lengths)} {unit}, {shown}"
-
-
-def _methods(robot, theta):
-    """How far three methods are from the product of exponentials, and the smallest singular value."""
-    J = robot.jacobian_geometric(theta)
-    apart = ", ".join(
-        f"{name} {np.abs(method(robot, theta) - J).max():.0e}" for name, method in METHODS.items()
-    )
-    yield f"largest difference to the exponentials: {apart}"
-    yield f"smallest singular value {text.number(singularity.sigma_min(robot, theta))}"

@@ -59,10 +59,9 @@ class _Path(yours.Path, Explorer):
     """The arm on the path: all branches at every sampling asked for so far, and the one that is shown."""
 
     name, title, opener = "path", "Explorer of the path", "explore_path"
-    predicts = True
 
     def __init__(self, robot, curve, mine):
-        super().__init__(robot, mine)
+        super().__init__(mine, robot)
         self.letter = Letter(robot, curve)
         self.known: dict[int, Followed] = {}
         first, n = self._follow(POINTS[0]), POINTS[0]
@@ -119,8 +118,7 @@ class _Path(yours.Path, Explorer):
         self.choose(values["points"], values["bounds"], values["branch"], values["wrapped"])
         if self.panel and self.frame is None:  # the motion ends with every choice: here is another
             self.send()
-            if self.prediction:
-                self.prediction.told = ""  # it was about the other choice
+            self.prediction.told = ""  # it was about the other choice
         self.place = int(self.shown[self.frame]) if self.panel else 0
         self.arm.theta = self.q[self.branch, self.place]
         for name, drawn in self.switched.items():
@@ -216,26 +214,24 @@ class _Path(yours.Path, Explorer):
         )
         inside = "inside" if self.robot.within_limits(theta) else "outside"
         speed, bound = text.number(self.limit.speed[k], 4), text.number(self.bounds[joint])
-        kinds = self.robot.joint_types
-        lines = [
+        return [
             self.names[k],  # the point of the path and its rates stand beside the buttons of the motion
-            f"joints {text.joints(kinds, theta)}: {inside} the limits",
+            f"joints {text.joints(self.robot.joint_types, theta)}: {inside} the limits",
             f"largest speed {speed} m/s: joint {joint + 1} at {bound} {self.rate_unit(joint)}{where}",
             *self.letter.remarks,
+            *([self._fault()] if self.wrapped else []),
         ]
-        return "\n".join([*lines, self._fault()] if self.wrapped else lines)
 
     def formula(self, values):
         """The speed that each joint allows; the least of them counts."""
         rates = np.abs(path.joint_rates(self.q[self.branch], self.points, 1.0)).max(axis=0)
-        joints = []
+        says = []
         for k, (rate, bound) in enumerate(zip(rates, self.bounds, strict=True)):
             may, unit = text.number(bound), self.rate_unit(k)
             allowed = f"{text.number(bound / rate, 4)} m/s" if rate > 1e-9 else "any speed"
             needs = f"needs {text.number(rate)} {unit} at most for 1 m/s of the tool"
-            says = f"joint {k + 1} {needs} and may go {may} {unit}, which allows {allowed}"
-            joints.append((pointing.numbered("v", k + 1), f"theta{k + 1}", says))
-        return [["largest speed = min( ", *joints, " )"]]
+            says.append(f"joint {k + 1} {needs} and may go {may} {unit}, which allows {allowed}")
+        return [["largest speed = min( ", *pointing.series("v", says, "theta"), " )"]]
 
     def rate_unit(self, joint):
         return "rad/s" if self.letter.turns[joint] else "m/s"

@@ -7,10 +7,11 @@ import numpy as np
 from coursekit.kinematics import axes, lie, robots
 from coursekit.kinematics.robot import Robot
 from coursekit.view import pointing, questions, text
+from coursekit.view.chain import hinges
 from coursekit.view.controls import Choice, Slider
 from coursekit.view.explorers import Explorer
 from coursekit.view.panel import Panel
-from coursekit.view.sketch import ROOT, ZERO, Trouble, apart, gap, size
+from coursekit.view.sketch import ZERO, Trouble, apart, gap, size
 
 
 def explore_screws(
@@ -46,10 +47,9 @@ def explore_screws(
 class _Screws(Explorer):
     name, title, opener = "screws", "Explorer of screws", "explore_screws"
     in_space = False  # but as one of the frames that look on
-    predicts = True
 
     def __init__(self, robot, mine):
-        super().__init__(robot, mine)
+        super().__init__(mine, robot)
         self.frames = _frames(robot)
         self.turn = Slider("turn", 0.0, -np.pi, np.pi, unit="deg", label="turn joint")
         joints = {f"joint {i + 1}": i for i in range(robot.n)}
@@ -130,30 +130,17 @@ class _Screws(Explorer):
         """All columns, and how the column of the chosen joint is made."""
         i, (letter, T) = values["joint"], values["frame"]
         name, change = "S" if letter == "s" else "B", lie.adjoint(lie.inverse(T))
-        columns = [
-            (
-                pointing.numbered(name, k + 1),
-                f"S{k + 1}",
-                f"column {k + 1} of {name} = {text.row(change @ S)}",
-            )
-            for k, S in enumerate(self.robot.S.T)
-        ]
+        columns = (f"column {k} of {name} = {text.row(change @ S)}" for k, S in enumerate(self.robot.S.T, 1))
         seen, q = change @ self.S, (lie.inverse(T) @ [*self.q, 1])[:3]
         w = ("ω", "w", f"w = {text.row(seen[:3])}, the direction of axis {i + 1}")
         v = ("v", "v", f"v = {text.row(seen[3:])}: how the point of the arm at {{{letter}}} goes, per radian")
         point = ("q", "q", f"q = {text.millimetres(q)}, a point of the axis, any one; the line is its lever")
-        made: list[pointing.Piece] = [
-            pointing.numbered(name, i + 1) + " = (",
-            w,
-            "; ",
-            v,
-            "),   v = −ω × ",
-            point,
-        ]
+        column = pointing.numbered(name, i + 1)
+        made = [f"{column} = (", w, "; ", v, "),   v = −ω × ", point]
         if self.slides(i):
             v = ("v", "v", f"v = {text.row(seen[3:])}, the direction in which every point goes")
-            made = [pointing.numbered(name, i + 1) + " = (0; ", v, ")"]
-        return [[f"{name} = ( ", *columns, " )"], made]
+            made = [f"{column} = (0; ", v, ")"]
+        return [[f"{name} = ( ", *pointing.series(name, columns, "S"), " )"], made]
 
     def words(self, values):
         i, (letter, T) = values["joint"], values["frame"]
@@ -163,26 +150,26 @@ class _Screws(Explorer):
         tool, moved = self.robot.fk(self.arm.theta)[:3, 3], self.turn.get()
         lines = [f"joint {i + 1} of {self.robot.name}, seen from frame {{{letter}}}"]
         if self.slides(i):
-            lines += [
+            return [
+                *lines,
                 "a slide turns nothing: w = 0, and no point q is needed (the one drawn is only its place)",
                 f"v = {text.row(seen[3:])}: the direction in which every point goes, 1 m per metre",
                 f"column {i + 1} of {name} = {text.row(seen)}    (0; v)",
                 f"tool at {text.millimetres(tool)} after {text.millimetres(moved)}",
             ]
-            return "\n".join(lines)
         pitch = float(self.S[:3] @ self.S[3:])
         formula = "v = -w x q"
         if abs(pitch) > axes.SAME:
             formula += f" + h w, with a pitch h of {text.number(1000 * pitch, 1)} mm per rad:"
         else:
             formula += " ="
-        lines += [
+        return [
+            *lines,
             f"direction w = {text.row(seen[:3])}    point q = {text.millimetres(q_seen)}",
             f"{formula} {text.row(1000 * seen[3:], 1)} mm per rad, of the point at {{{letter}}}",
             f"column {i + 1} of {name} = {text.row(seen)}    (w; v), v in metres",
             f"tool at {text.millimetres(tool)} after {text.degrees(moved)}",
         ]
-        return "\n".join(lines)
 
     # -- where will the tool be?
 
@@ -203,20 +190,40 @@ class _Screws(Explorer):
         slides = f"slides by {text.millimetres(by, 0)} along" if self.slides(j) else ""
         goes = slides or f"turns by {text.degrees(by, 0)} about"
         asked = f"joint {j + 1} {goes} its screw {S}, all others rest at zero. Where will the tool be?"
-        end = by * np.eye(robot.n)[j]
-        play = lambda _right: self.panel.play(np.linspace(zero, end, 31))  # noqa: E731
-        return questions.where_after(robot, zero, j, by, f"{asked} Drag the point there.", show=play)
+        way = np.linspace(zero, by * np.eye(robot.n)[j], 31)
+        asked += " Drag the point there."
+        return questions.where_after(robot, zero, j, by, asked, show=lambda _right: self.panel.play(way))
 
     # -- the axes by the student's functions
 
-    def yours(self, name, values):
-        sketch = self.sketch(name)
-        if name == "home_pose":
-            return self._home(sketch)
-        S, i = self._screws(name), values["joint"]
-        if S.shape != self.robot.S.shape:
+    def _S(self, sketch, values):
+        return self._axes(sketch, values, self.mine.ask("S"))
+
+    def _body_screws(self, sketch, values):
+        mine = self.mine.ask("body_screws", self.robot.S, self.robot.M)
+        return self._axes(sketch, values, lie.adjoint(self.robot.M) @ mine)
+
+    def _axis_of(self, sketch, values):
+        turning = [self.mine.ask("axis_of", S) for S in self.robot.S[:, hinges(self.robot)].T]
+        return self._hinges(sketch, values, [[*w, *(h * w - np.cross(w, q))] for w, q, h in turning])
+
+    def _screw_axis(self, sketch, values):
+        turning = hinges(self.robot)
+        lines = zip(self.origins[turning], self.points[turning], self.directions[turning], strict=True)
+        pairs = [(2 * w, axes.foot(near, q, w)) for near, q, w in lines]  # w may come in any length
+        return self._hinges(sketch, values, [self.mine.ask("screw_axis", *pair) for pair in pairs])
+
+    def _hinges(self, sketch, values, screws):
+        S = self.robot.S.copy()  # a slide has no axis to be found
+        S[:, hinges(self.robot)] = np.array(screws).T
+        return self._axes(sketch, values, S)
+
+    def _axes(self, sketch, values, S):
+        """The axes of the student's screws in the space frame (6, n), beside the right ones."""
+        i, right = values["joint"], self.robot.S
+        if S.shape != right.shape:
             raise Trouble(f"it gives {S.shape[1]} screws, and {self.robot.name} has {self.robot.n} joints")
-        off = [k for k in range(self.robot.n) if np.abs(S[:, k] - self.robot.S[:, k]).max() > ZERO]
+        off = [k for k in range(self.robot.n) if np.abs(S[:, k] - right[:, k]).max() > ZERO]
         for k in range(self.robot.n):
             self._axis(sketch, k, S[:, k], k in off, k == i)
         self._turn(sketch, S[:, i] * self.arm.theta[i], i)
@@ -224,23 +231,6 @@ class _Screws(Explorer):
             return "all axes agree with the arm's, below 1e-9"
         listed = f"joint{'s' if len(off) > 1 else ''} {', '.join(str(k + 1) for k in off)}"
         return f"off: {listed}" + (f". Joint {i + 1}: {_between(S[:, i], self.S)}" if i in off else "")
-
-    def _screws(self, name):
-        """The screws in the space frame, (6, n), by what the student wrote."""
-        robot = self.robot
-        hinges, columns = np.any(robot.S[:3], axis=0), robot.S.copy()  # a slide has no axis to be found
-        if name == "body_screws":
-            return lie.adjoint(robot.M) @ self.mine.ask(name, robot.S, robot.M)
-        if name == "axis_of":
-            turning = [self.mine.ask(name, S) for S in robot.S[:, hinges].T]
-            columns[:, hinges] = np.array([[*w, *(h * w - np.cross(w, q))] for w, q, h in turning]).T
-            return columns
-        if name == "screw_axis":
-            lines = zip(self.origins[hinges], self.points[hinges], self.directions[hinges], strict=True)
-            pairs = [(2 * w, axes.foot(near, q, w)) for near, q, w in lines]  # w may come in any length
-            columns[:, hinges] = np.array([self.mine.ask(name, *pair) for pair in pairs]).T
-            return columns
-        return self.mine.ask(name)
 
     def _axis(self, sketch, k, S, is_off, is_chosen):
         """The axis of joint k: an arrow where it is off, a tick where it is right."""
@@ -255,7 +245,7 @@ class _Screws(Explorer):
         right = point if sketch.near(point) else at
         tick = "" if is_off else " \N{CHECK MARK}"
         if not sketch.near(point) or not (is_off or is_chosen):
-            sketch.scene.point(f"{sketch.path}/{key}", at, label + tick, self._color(is_off))
+            sketch.scene.point(f"{sketch.path}/{key}", at, label + tick, "accent" if is_off else "y")
             return
         start = right + unit[:3] * (unit[:3] @ (at - right))
         sketch.scene.screw_axis(
@@ -263,9 +253,6 @@ class _Screws(Explorer):
         )
         if is_chosen:
             sketch.gap("gap", at, start)
-
-    def _color(self, is_off):
-        return "accent" if is_off else "y"
 
     def _turn(self, sketch, xi, i):
         """The chosen joint and what it carries, turned about the student's axis."""
@@ -275,7 +262,7 @@ class _Screws(Explorer):
         else:
             sketch.scene.remove(f"{sketch.path}/arm")
 
-    def _home(self, sketch):
+    def _home_pose(self, sketch, _values):
         """The tool frame at zero, for the arm with those five lengths."""
         table = self.robot.standard_dh
         if not self.robot.name.startswith("ABB IRB 1200"):
@@ -287,7 +274,7 @@ class _Screws(Explorer):
             sketch.frame("tool", T, sketch.label + ("" if max(off, turned) > ZERO else " \N{CHECK MARK}"))
             sketch.gap("gap", M[:3, 3], T[:3, 3])
         else:
-            sketch.scene.remove(f"{ROOT}/home_pose")
+            sketch.scene.remove(sketch.path)
         return f"your tool frame at zero and the arm's: {gap(off, turned)}"
 
 

@@ -16,7 +16,6 @@ from coursekit.view.explorers.singular import nearest, singular_poses, start_of,
 from coursekit.view.figures import nb04
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
-from coursekit.view.sketch import ROOT
 
 UNITS = {"wrist": "", "elbow": " m^2", "shoulder": " m"}
 ZERO_WHERE = {
@@ -70,11 +69,9 @@ def explore_singularities(
 class _Singularities(yours.Singularities, Explorer):
     name, title, opener = "singularities", "Explorer of singularities", "explore_singularities"
     computed = ("/ck/lost", "/ck/meets_all")
-    predicts = True
 
     def __init__(self, arms, mine):
-        super().__init__(arms[0], mine)
-        self.arms = {arm.name: arm for arm in arms}
+        super().__init__(mine, *arms)
         self.split = nb04.has_factors(self.robot)  # all of them or, where it is one, this one
         self.joints = joint_sliders(self.robot, start_of(self.robot))
         n = self.robot.n
@@ -87,20 +84,16 @@ class _Singularities(yours.Singularities, Explorer):
 
     def controls(self):
         if self.split:
-            buttons = [
-                Action(f"to_{kind}", f"to the {kind}", partial(self.drive_to, kind))
-                for kind in singularity.NAMES
-            ]
+            kinds = {kind: f"to the {kind}" for kind in singularity.NAMES}
         else:
-            buttons = [Action("to_weakest", "to the weakest pose by one joint", self.drive_to_weakest)]
+            kinds = {"weakest": "to the weakest pose by one joint"}
         return [
-            *([Choice("robot", self.arms)] if len(self.arms) > 1 else []),
             self.joints,
             *([self.across, self.upwards] if len(self.offered) > 1 else []),
             Toggle("lost", "lost motion", start=True),
             *([Toggle("line", "line that meets all axes", start=True)] if self.robot.n >= 6 else []),
             Toggle("axes", "joint axes", start=True),
-            *buttons,
+            *(Action(f"to_{kind}", label, partial(self.drive_to, kind)) for kind, label in kinds.items()),
         ]
 
     def below(self):
@@ -113,8 +106,6 @@ class _Singularities(yours.Singularities, Explorer):
     def show(self, robot):
         """The arm, and each joint axis as a long line that moves with its link."""
         self.robot, scene = robot, self.scene
-        scene.remove("/ck/robot")
-        scene.remove(ROOT)
         # the camera leaves room for the stretched arm
         end = nearest(robot, start_of(robot), "elbow") if self.split else None
         self.arm = scene.robot(robot, start_of(robot) if end is None else end)
@@ -135,8 +126,6 @@ class _Singularities(yours.Singularities, Explorer):
             slider.fit_joint(robot, k, start_of(robot)[k])
 
     def update(self, values):
-        if values.get("robot", self.robot) is not self.robot:
-            self.show(values["robot"])
         names = list(self.offered)
         if len(names) > 1 and values["across"] == values["up"]:  # two different joints
             second = names[1] if values["across"] != self.offered[names[1]] else names[0]
@@ -149,11 +138,8 @@ class _Singularities(yours.Singularities, Explorer):
     def formula(self, values):
         """det J and its factors; of other arms, the columns."""
         if not self.split:
-            columns = [
-                (pointing.numbered("J", k), f"J{k}", f"column {k}: the axis of joint {k}")
-                for k in range(1, self.robot.n + 1)
-            ]
-            return [["J(θ) = ( ", *columns, " )"]]
+            columns = (f"column {k}: the axis of joint {k}" for k in range(1, self.robot.n + 1))
+            return [["J(θ) = ( ", *pointing.series("J", columns), " )"]]
         split = singularity.factors(self.robot, values["theta"])
         factors = [
             (name, name, f"{name} {text.number(split[name], 5)}{unit}: {ZERO_WHERE[name]}")
@@ -163,7 +149,7 @@ class _Singularities(yours.Singularities, Explorer):
 
     def words(self, values):
         lines = words(self.robot, values["theta"]).splitlines()
-        return "\n".join(line for line in lines if not (self.asking and line.startswith("lost: ")))
+        return [line for line in lines if not (self.asking and line.startswith("lost: "))]
 
     # -- which motion is lost?
 
@@ -229,14 +215,10 @@ class _Singularities(yours.Singularities, Explorer):
         self.panel.set(theta=np.clip(theta, *nb04.ends_of(self.robot)))
 
     def drive_to(self, kind):
-        start = self.panel.values["theta"]
-        end = nearest(self.robot, start, kind)
+        robot, start = self.robot, self.panel.values["theta"]
+        end = weakest(robot, start) if kind == "weakest" else nearest(robot, start, kind)
         if end is not None:
-            self.panel.play(np.linspace(start, end, 31))
-
-    def drive_to_weakest(self):
-        start = self.panel.values["theta"]
-        self.panel.play(np.linspace(start, weakest(self.robot, start), 31))
+            self._drive_to(end)
 
 
 def words(robot: Robot, theta: ArrayLike) -> str:

@@ -1,7 +1,7 @@
 """What the student's functions draw in the explorers of notebooks 03 to 06, and what the text says of them.
 
-Each class is a part of one explorer: `yours(name, values)` is called after its `update`, draws by a `Sketch`
-and gives the words; `more` are the controls that a function brings along.
+Each class is a part of one explorer, which it tells how to draw a function (see `Explorer`); `_more` are the
+controls that a function brings along.
 """
 
 from .inverse import Inverse

@@ -1,7 +1,5 @@
 """Notebook 03: solutions of the student as translucent arms, and the steps of their Newton."""
 
-from typing import Any
-
 import numpy as np
 
 from coursekit.kinematics import rotations
@@ -14,73 +12,67 @@ from .steps import ahead, alike, iterate, run, wrist
 class Inverse(Explorer):
     """Notebook 03: solutions of the student as translucent arms, and the steps of their Newton."""
 
-    T: Any
-    shown: Any
-    reached: bool
-    theta: Any
+    def _wrist_centre(self, sketch, _values):
+        _, tool = like_the_kr6(self.robot)
+        return sketch.point("P", self.mine.ask("wrist_centre", self.T, tool), wrist(self.T, tool))
 
-    def yours(self, name: str, values: dict[str, Any]) -> str:
-        """See `Explorer`."""
-        sketch = self.sketch(name)
-        if name == "newton_step":
-            return self._newton(sketch, values["guess"])
+    def _all_solutions(self, sketch, _values):
+        lengths, tool, right = self._solved()
+        thetas = self.mine.ask("all_solutions", self.T, lengths, tool)
+        return self._solutions(sketch, thetas, self.robot.fk(thetas), self.T, _found(thetas, right))
+
+    def _wrist_angles(self, sketch, _values):
+        _, _, right = self._solved()
+        t1, t2, t3 = arm = self.shown[:3]
+        R = (rotations.rotz(-t1) @ rotations.roty(t2 + t3)).T @ self.T[:3, :3]
+        thetas = np.array([[*arm, *angles] for angles in self.mine.ask("wrist_angles", R)])
+        found = _found(thetas, right[alike(right[:, :3], arm)])
+        return self._solutions(sketch, thetas, self.robot.fk(thetas), self.T, found)
+
+    def _elbow_solutions(self, sketch, _values):
+        lengths, tool, right = self._solved()
+        t1, P = self.shown[0], wrist(self.T, tool)
+        r = float(P @ rotations.rotz(-t1)[:, 0])
+        pairs = self.mine.ask("elbow_solutions", r, float(P[2]), lengths)
+        thetas = np.array([[t1, *pair, *self.shown[3:]] for pair in pairs])
+        ends, goal = np.tile(np.eye(4), (2, 1, 1)), np.eye(4)  # wrists without a hand: that is not theirs
+        ends[:, :3, 3], goal[:3, 3] = wrist(self.robot.fk(thetas), tool), P
+        found = _found(pairs, right[alike(right[:, :1], self.shown[:1])][:, 1:3])
+        found = found[::2] if len(found) > 2 else found  # each stands there twice, once for each wrist
+        return self._solutions(sketch, thetas, ends, goal, found)
+
+    def _solved(self):
+        """Lengths, tool and solutions (k, 6) of an arm like the KR6; Trouble for others, and out of reach."""
         lengths, tool = like_the_kr6(self.robot)
-        P = wrist(self.T, tool)
-        if name == "wrist_centre":
-            return sketch.point("P", self.mine.ask(name, self.T, tool), P)
         if not self.reached:
             raise Trouble("the target is out of reach: there is no solution to find")
-        t1, t2, t3 = self.shown[:3]
-        if name == "all_solutions":
-            thetas = self.mine.ask(name, self.T, lengths, tool)
-        elif name == "elbow_solutions":
-            r = float(P @ rotations.rotz(-t1)[:, 0])
-            thetas = [[t1, *pair, *self.shown[3:]] for pair in self.mine.ask(name, r, float(P[2]), lengths)]
-        else:
-            R = (rotations.rotz(-t1) @ rotations.roty(t2 + t3)).T @ self.T[:3, :3]
-            thetas = [[t1, t2, t3, *angles] for angles in self.mine.ask(name, R)]
-        thetas = np.array(thetas)
-        reached = self.robot.fk(thetas)
-        distance, angle = apart(reached, self.T)
-        if name == "elbow_solutions":  # the hand is not theirs
-            distance, angle = np.linalg.norm(wrist(reached, tool) - P, axis=-1), 0 * distance
-            ends, goal = wrist(reached, tool), P
-        else:
-            ends, goal = reached[:, :3, 3], self.T[:3, 3]
+        return lengths, tool, self.theta[~np.isnan(self.theta).any(axis=1)]
+
+    def _solutions(self, sketch, thetas, ends, goal, found):
+        """Those of the student's that miss: they end at `ends` (k, 4, 4), not at `goal` (4, 4)."""
+        distance, angle = apart(ends, goal)
         off, worst = np.flatnonzero((distance > ZERO) | (angle > ZERO)), int(np.argmax(distance + angle))
         sketch.arms(self.robot, thetas[off])
-        for k in range(len(thetas)):
-            sketch.gap(f"gap{k}", goal, ends[k] if k in off else goal, k == worst)
-        words = self._found(thetas, name)
+        for k, end in enumerate(ends):
+            sketch.gap(f"gap{k}", goal[:3, 3], (end if k in off else goal)[:3, 3], k == worst)
+        words = f"{sum(found)} of {len(found)} solutions found"
         if not off.size:
             return f"{words}, each hits the target, below 1e-9"
-        return (
-            f"{words}; {off.size} of your {len(thetas)} miss the target, solution {worst + 1} "
-            f"by {gap(distance[worst], angle[worst])}"
-        )
+        miss = f"{off.size} of your {len(thetas)} miss the target, solution {worst + 1}"
+        return f"{words}; {miss} by {gap(distance[worst], angle[worst])}"
 
-    def _found(self, thetas, name):
-        """How many of the right solutions are among the student's."""
-        right = np.array([theta for theta in self.theta if not np.isnan(theta).any()])
-        if name == "elbow_solutions":
-            right = right[alike(right[:, :1], self.shown[:1])][:, 1:3]
-            thetas = thetas[:, 1:3]
-        if name == "wrist_angles":
-            right = right[alike(right[:, :3], self.shown[:3])]
-        found = [bool(alike(thetas, theta).any()) for theta in right]
-        if name == "elbow_solutions":  # each stands there twice, once for each wrist
-            found = found[::2] if len(found) > 2 else found
-        return f"{sum(found)} of {len(found)} solutions found"
+    def _newton_step(self, sketch, values):
+        robot, theta, T = self.robot, values["guess"], self.T
 
-    def _newton(self, sketch, guess):
-        robot, theta = self.robot, np.array(guess, float)
-        first = np.linalg.pinv(robot.jacobian_body(theta)) @ ahead(robot, theta, self.T)
-        thetas, error = iterate(
-            robot,
-            theta,
-            self.T,
-            lambda theta: self.mine.ask("newton_step", robot.jacobian_body(theta), robot.fk(theta), self.T),
-        )
+        def step(theta):
+            return self.mine.ask("newton_step", robot.jacobian_body(theta), robot.fk(theta), T)
+
+        first = np.linalg.pinv(robot.jacobian_body(theta)) @ ahead(robot, theta, T)
+        thetas, left = iterate(robot, theta, T, step)
         sketch.way(robot.fk(thetas)[:, :3, 3])
-        off = np.abs(thetas[1] - thetas[0] - first).max() if len(thetas) > 1 else 0.0
-        return run(thetas, error, off)
+        return run(thetas, left, first)
+
+
+def _found(thetas, right):
+    """Which of the right solutions (k, n) are among the student's."""
+    return [bool(alike(thetas, theta).any()) for theta in right]

@@ -1,13 +1,10 @@
 """Notebook 05: a column of the student, their ellipsoids, their torques, and their damped steps."""
 
-from collections.abc import Sequence
-from typing import Any
-
 import numpy as np
 
 from coursekit.kinematics import ik, jacobians, lie
 from coursekit.view import text
-from coursekit.view.controls import Action, Control
+from coursekit.view.controls import Action
 from coursekit.view.explorers import Explorer
 from coursekit.view.sketch import ZERO, Trouble, apart, size
 
@@ -20,51 +17,53 @@ TWIST = 10.0  # N m, about y
 class Jacobians(Explorer):
     """Notebook 05: a column of the student, their ellipsoids, their torques, and their damped steps."""
 
-    run: Any
-    start: Any
-    target: Any
-    scale: Any
-    running: bool
-    draw: Any
-
-    def more(self) -> Sequence[Control]:
-        """See `Explorer`."""
-        self.run = None
+    def _more(self):
+        self.run, self.rows = None, slice(0 if self.robot.n > 5 else 3, 6)
         runs = {"dls_step", "dls_loop"} & set(self.mine.functions)
         return [Action("mine", "play yours", self._play)] if runs else []
 
-    def yours(self, name: str, values: dict[str, Any]) -> str:
-        """See `Explorer`."""
-        theta, sketch = values["theta"], self.sketch(name)
-        if name == "ellipsoid":
-            return self._ellipsoids(sketch, values)
-        if name in ("dls_step", "dls_loop"):
-            return self._damped(sketch, name, values["damping"])
-        if name == "torques":
-            return self._torques(sketch, theta)
-        return self._columns(sketch, name, theta)
+    def _jacobian_space(self, sketch, values):
+        robot, theta = self.robot, values["theta"]
+        mine = self.mine.ask("jacobian_space", robot.S, theta)
+        at_tool = mine[3:] + np.cross(mine[:3].T, robot.fk(theta)[:3, 3]).T  # what it does by these columns
+        return self._columns(sketch, theta, np.vstack([mine[:3], at_tool]))
 
-    def _columns(self, sketch, name, theta):
-        robot, bound = self.robot, ZERO
-        right, tool = robot.jacobian_geometric(theta), robot.fk(theta)[:3, 3]
-        in_space = robot.jacobian_space(theta)
-        if name == "jacobian_space":
-            mine = self.mine.ask(name, robot.S, theta)
-        elif name == "jacobian_geometric":
-            if "prismatic" in robot.joint_types:
-                raise Trouble(f"it is for joints that turn, and one of {robot.name} slides")
-            axes = in_space[:3].T.copy()
-            mine = self.mine.ask(name, axes, np.cross(axes, in_space[3:].T), tool)
-        elif name in ("jacobian_column", "transform_rate"):
-            by_joint = self._by_column if name == "jacobian_column" else self._by_rate
-            mine = np.array(list(by_joint(theta, in_space))).T
-        else:
-            bound = 1e-6
-            mine = self.mine.ask(name, robot.fk, theta, 1e-5)
+    def _jacobian_geometric(self, sketch, values):
+        robot, theta = self.robot, values["theta"]
+        if "prismatic" in robot.joint_types:
+            raise Trouble(f"it is for joints that turn, and one of {robot.name} slides")
+        w, v = np.split(robot.jacobian_space(theta).T, 2, axis=1)
+        mine = self.mine.ask("jacobian_geometric", w.copy(), np.cross(w, v), robot.fk(theta)[:3, 3])
+        return self._columns(sketch, theta, mine)
+
+    def _jacobian_by_differences(self, sketch, values):
+        mine = self.mine.ask("jacobian_by_differences", self.robot.fk, values["theta"], 1e-5)
+        return self._columns(sketch, values["theta"], mine, bound=1e-6)
+
+    def _jacobian_column(self, sketch, values):
+        """By the student's column of J_b, which is turned into the directions of the base."""
+        robot, theta = self.robot, values["theta"]
+        T, columns = robot.fk(theta), []
+        for kind, screw in zip(robot.joint_types, robot.jacobian_space(theta).T, strict=True):
+            w, v = np.split(screw, 2)
+            axis = (w, np.cross(w, v)) if kind == "revolute" else (v, np.zeros(3))
+            column = self.mine.ask("jacobian_column", kind, *axis, T)
+            columns.append(np.concatenate([T[:3, :3] @ column[:3], T[:3, :3] @ column[3:]]))
+        return self._columns(sketch, theta, np.array(columns).T)
+
+    def _transform_rate(self, sketch, values):
+        """By the student's rate of T = T_left e^[S]theta T_right."""
+        robot, theta = self.robot, values["theta"]
+        before = np.array([np.eye(4), *robot.displacements(theta)])
+        parts = zip(before, robot.S.T, theta, lie.inverse(before[1:]) @ robot.fk(theta), strict=False)
+        columns = [self.mine.ask("transform_rate", T, S.copy(), q, after)[1] for T, S, q, after in parts]
+        return self._columns(sketch, theta, np.array(columns).T)
+
+    def _columns(self, sketch, theta, mine, bound=ZERO):
+        """The first column that is off: the velocity of the tool by the student's and by the right one."""
+        right, tool = self.robot.jacobian_geometric(theta), self.robot.fk(theta)[:3, 3]
         if mine.shape != right.shape:
             raise Trouble(f"it returns shape {mine.shape}, expected {right.shape}")
-        if name == "jacobian_space":  # what the tool does by these columns
-            mine = np.vstack([mine[:3], mine[3:] + np.cross(mine[:3].T, tool).T])
         off = np.flatnonzero(np.abs(mine - right).max(axis=0) > bound)
         if not off.size:
             self.scene.remove(sketch.path)
@@ -83,24 +82,9 @@ class Jacobians(Explorer):
             f"velocity by {size(1000 * np.linalg.norm(v - right_v))} mm/s at 1 rad/s"
         )
 
-    def _by_column(self, theta, in_space):
-        """The columns along the base, by the student's column of J_b."""
-        T = self.robot.fk(theta)
-        for kind, screw in zip(self.robot.joint_types, in_space.T, strict=True):
-            w, v = np.split(screw, 2)
-            axis = (w, np.cross(w, v)) if kind == "revolute" else (v, np.zeros(3))
-            column = self.mine.ask("jacobian_column", kind, *axis, T)
-            yield np.concatenate([T[:3, :3] @ column[:3], T[:3, :3] @ column[3:]])
-
-    def _by_rate(self, theta, _in_space):
-        """The columns along the base, by the student's rate of T = T_left e^[S]theta T_right."""
-        before = np.array([np.eye(4), *self.robot.displacements(theta)])
-        after = lie.inverse(before[1:]) @ self.robot.fk(theta)
-        for left, S, angle, right in zip(before, self.robot.S.T, theta, after, strict=False):
-            yield self.mine.ask("transform_rate", left, S.copy(), angle, right)[1]
-
-    def _torques(self, sketch, theta):
+    def _torques(self, sketch, values):
         """What the joints must give for a force that the tool gives downwards, and a moment about y."""
+        theta = values["theta"]
         T, moment, force = self.robot.fk(theta), np.array([0, TWIST, 0]), np.array([0, 0, -LOAD])
         right = self.robot.jacobian_geometric(theta).T @ np.concatenate([moment, force])
         units = ["N m" if kind == "revolute" else "N" for kind in self.robot.joint_types]
@@ -117,7 +101,7 @@ class Jacobians(Explorer):
         told = f"{text.number(mine[i], 1)} {units[i]}, the right one is {text.number(right[i], 1)}"
         return f"{load} joint {i + 1} gives {told}"
 
-    def _ellipsoids(self, sketch, values):
+    def _ellipsoid(self, sketch, values):
         theta, words = values["theta"], []
         J, tool = self.robot.jacobian_geometric(theta), self.robot.fk(theta)[:3, 3]
         for part, rows in (("linear", J[3:]), ("angular", J[:3])):
@@ -141,37 +125,36 @@ class Jacobians(Explorer):
                 words.append(f"{part}: below 1e-9")
         return "; ".join(words)
 
-    def _damped(self, sketch, name, damping):
-        robot, rows = self.robot, slice(0 if self.robot.n > 5 else 3, 6)
-        self.run = None
-        first = ik.dls_step(
-            robot.jacobian_body(self.start)[rows], ahead(robot, self.start, self.target)[rows], damping
-        )
-
+    def _dls_step(self, sketch, values):
         def step(theta):
-            J, e = robot.jacobian_body(theta)[rows], ahead(robot, theta, self.target)[rows]
-            return self.mine.ask(name, J, e, damping)
+            return self.mine.ask("dls_step", *self._task(theta), values["damping"])
 
-        if name == "dls_loop":
-            self.run, error = self._loop(damping)
-        else:
-            self.run, error = iterate(robot, self.start, self.target, step, 1e-8, rows)
-        sketch.way(robot.fk(self.run)[:, :3, 3])
-        off = np.abs(self.run[1] - self.run[0] - first).max() if len(self.run) > 1 else 0.0
-        return run(self.run, error, off)
+        self.run = None
+        steps = iterate(self.robot, self.start, self.target, step, 1e-8, self.rows)
+        return self._damped(sketch, values, *steps)
 
-    def _loop(self, damping):
+    def _dls_loop(self, sketch, values):
         """The student's whole run, as far as it stays finite, and what is left at its end."""
-        thetas = self.mine.ask("dls_loop", self.robot, self.target, self.start, damping, STEPS)
-        if thetas.shape != (STEPS + 1, self.robot.n):
-            raise Trouble(f"it returns shape {thetas.shape}, expected {(STEPS + 1, self.robot.n)}")
+        self.run, wanted = None, (STEPS + 1, self.robot.n)
+        thetas = self.mine.ask("dls_loop", self.robot, self.target, self.start, values["damping"], STEPS)
+        if thetas.shape != wanted:
+            raise Trouble(f"it returns shape {thetas.shape}, expected {wanted}")
         if np.abs(thetas[0] - self.start).max() > ZERO:
             raise Trouble("its first row is not where the arm stands")
         far = np.flatnonzero(np.abs(thetas).max(axis=1) > 1e4)
         if far.size:
-            return thetas[: far[0]], None
+            return self._damped(sketch, values, thetas[: far[0]], None)
         distance, angle = apart(self.robot.fk(thetas[-1]), self.target)
-        return thetas, (float(angle), float(distance))
+        return self._damped(sketch, values, thetas, (float(angle), float(distance)))
+
+    def _task(self, theta):
+        """J_b and the twist to the target, in the rows that count."""
+        return self.robot.jacobian_body(theta)[self.rows], ahead(self.robot, theta, self.target)[self.rows]
+
+    def _damped(self, sketch, values, thetas, left):
+        self.run = thetas
+        sketch.way(self.robot.fk(thetas)[:, :3, 3])
+        return run(thetas, left, ik.dls_step(*self._task(self.start), values["damping"]))
 
     def _play(self):
         if self.run is not None:

@@ -1,14 +1,11 @@
 """Notebook 06: the student's frames along the path, their attitudes, limits and speed."""
 
-from collections.abc import Sequence
-from typing import Any
-
 import numpy as np
 
 from coursekit.kinematics import lie, path, rotations
 from coursekit.view import text
 from coursekit.view.chain import hinges
-from coursekit.view.controls import Action, Control
+from coursekit.view.controls import Action
 from coursekit.view.explorers import Explorer
 from coursekit.view.sketch import ZERO, Trouble, apart, gap, size
 
@@ -20,31 +17,14 @@ BACK = 1e-7  # rad; of a turn near 0 half the digits are lost
 class Path(Explorer):
     """Notebook 06: the student's frames along the path, their attitudes, limits and speed."""
 
-    points: Any
-    place: int
-    q: Any
-    reached: Any
-    branch: int
-    bounds: Any
-    limit: Any
-    names: Any
-    speed: float | None
-
-    def more(self) -> Sequence[Control]:
-        """See `Explorer`."""
+    def _more(self):
         self.speed = None
         wanted = "largest_speed" in self.mine.functions
         return [Action("mine", "play at your speed", self._play)] if wanted else []
 
-    def yours(self, name: str, values: dict[str, Any]) -> str:
-        """See `Explorer`."""
-        sketch = self.sketch(name)
-        turn = name in ("quaternion", "zyx", "angle_axis")
-        return getattr(self, "_turn" if turn else f"_{name}")(sketch, name)
-
-    def _tool_frames(self, sketch, name):
+    def _tool_frames(self, sketch, _values):
         right = path.frames(self.points)
-        mine = self.mine.ask(name, self.points, path.SPHERE_CENTER)
+        mine = self.mine.ask("tool_frames", self.points, path.SPHERE_CENTER)
         if mine.shape != right.shape:
             raise Trouble(f"it returns {len(mine)} frames for {len(right)} points")
         distance, angle = apart(mine, right)
@@ -59,38 +39,48 @@ class Path(Explorer):
         first = f"the first is at point {k + 1}, by {gap(distance[k], angle[k])}"
         return f"{off.size} of {len(mine)} frames are off; {first}"
 
-    def _turn(self, sketch, name):
+    def _zyx(self, sketch, _values):
+        return self._attitudes(sketch, "zyx", rotations.from_zyx)
+
+    def _angle_axis(self, sketch, _values):
+        return self._attitudes(sketch, "angle_axis", lie.exp3)
+
+    def _quaternion(self, sketch, _values):
+        lengths = []
+
+        def turn(q):
+            lengths.append(np.linalg.norm(q))
+            if lengths[-1] < 1e-9:
+                raise Trouble("its quaternion has length 0")
+            return rotations.from_quaternion(q / lengths[-1])
+
+        told = self._attitudes(sketch, "quaternion", turn)
+        long = next((x for x in lengths if abs(x - 1) > ZERO), None)
+        return told if long is None else f"{told}; the length of a quaternion is {size(long)}, not 1"
+
+    def _attitudes(self, sketch, name, back):
         """Attitudes along the path, made again from the student's numbers; that of this point is drawn."""
         right = path.frames(self.points)
         some = np.unique([*np.linspace(0, len(right) - 1, SAMPLES).round().astype(int), self.place])
-        made, lengths = right[some].copy(), []
+        made = right[some].copy()
         for T in made:
-            numbers = self.mine.ask(name, T[:3, :3].copy())
-            lengths.append(np.linalg.norm(numbers))
-            if name != "quaternion":
-                T[:3, :3] = rotations.from_zyx(numbers) if name == "zyx" else lie.exp3(numbers)
-            elif lengths[-1] < 1e-9:
-                raise Trouble("its quaternion has length 0")
-            else:
-                T[:3, :3] = rotations.from_quaternion(numbers / lengths[-1])
+            T[:3, :3] = back(self.mine.ask(name, T[:3, :3].copy()))
         angle, here = apart(made, right[some])[1], int(np.searchsorted(some, self.place))
         tick = "" if angle[here] > BACK else " \N{CHECK MARK}"
         sketch.frame("attitude", made[here], sketch.label + tick)
         off = np.flatnonzero(angle > BACK)
-        long = next((x for x in lengths if abs(x - 1) > ZERO), None) if name == "quaternion" else None
-        note = "" if long is None else f"; the length of a quaternion is {size(long)}, not 1"
         if not off.size:
-            return f"every attitude made again from your numbers: below 1e-7{note}"
+            return "every attitude made again from your numbers: below 1e-7"
         at = here if here in off else off[0]
         told = f"at point {some[at] + 1} by {gap(0, angle[at])}"
-        return f"{off.size} of {len(some)} attitudes made again from your numbers are off, {told}{note}"
+        return f"{off.size} of {len(some)} attitudes made again from your numbers are off, {told}"
 
-    def _slerp(self, sketch, name):
+    def _slerp(self, sketch, _values):
         """Attitudes between those of the two ends; the one of this share of the way stands at this point."""
         frames = path.frames(self.points)
         first, last, here = frames[0, :3, :3], frames[-1, :3, :3], frames[self.place].copy()
         shares = np.append(np.linspace(0, 1, FRAMES), self.place / (len(frames) - 1))
-        mine = np.array([self.mine.ask(name, first.copy(), last.copy(), float(t)) for t in shares])
+        mine = np.array([self.mine.ask("slerp", first.copy(), last.copy(), float(t)) for t in shares])
         angle = np.linalg.norm(lie.log3(np.swapaxes(mine, -1, -2) @ lie.slerp(first, last, shares)), axis=-1)
         if np.abs(np.swapaxes(mine, -1, -2) @ mine - np.eye(3)).max() > 1e-6:
             raise Trouble("its columns are not three of length 1 at right angles")
@@ -101,7 +91,7 @@ class Path(Explorer):
             return "every attitude between the two ends agrees, below 1e-7"
         return f"off by up to {gap(0, angle[worst])}, at t = {text.number(shares[worst], 2)}"
 
-    def _next_on_branch(self, sketch, name):
+    def _next_on_branch(self, sketch, _values):
         """The student's steps along this way, begun some turns away, among all ways within half a turn."""
         turning = hinges(self.robot)
         turns = 2 * np.pi * np.resize([0, 1, -2], self.robot.n) * turning
@@ -109,7 +99,7 @@ class Path(Explorer):
         solutions = np.where(turning, np.angle(np.exp(1j * self.q)), self.q).swapaxes(0, 1)
         mine = right.copy()
         for i in range(1, len(mine)):
-            mine[i] = self.mine.ask(name, mine[i - 1].copy(), solutions[i].copy())
+            mine[i] = self.mine.ask("next_on_branch", mine[i - 1].copy(), solutions[i].copy())
         off = np.flatnonzero(~(np.abs(mine - right) <= BACK).all(axis=1))
         sketch.marks("left", self.points[off])
         if not off.size:
@@ -118,13 +108,13 @@ class Path(Explorer):
         leap = np.abs(mine[k] - right[k])
         return f"at point {k + 1} you leave this way: joint {leap.argmax() + 1} leaps by {gap(0, leap.max())}"
 
-    def _inside(self, sketch, name):
+    def _inside(self, sketch, _values):
         lower, upper = self.robot.q_min, self.robot.q_max
         if not np.isfinite([lower, upper]).all():
             raise Trouble(f"{self.robot.name} has a joint without limits")
         ways = np.flatnonzero(self.reached == len(self.points))
         q = self.q[ways].reshape(-1, self.robot.n)
-        mine, right = self.mine.ask(name, q, lower, upper), self.robot.within_limits(q)
+        mine, right = self.mine.ask("inside", q, lower, upper), self.robot.within_limits(q)
         if mine.shape != right.shape:
             raise Trouble(f"it returns {len(mine)} verdicts for {len(right)} configurations")
         off = (mine != right).reshape(len(ways), -1)
@@ -135,10 +125,10 @@ class Path(Explorer):
         which = ", ".join(self.names[ways[k]] for k in np.flatnonzero(off.any(axis=1))[:3])
         return f"{off.sum()} of {len(q)} configurations of all ways are off, first of: {which}"
 
-    def _largest_speed(self, sketch, name):
-        self.speed = None
-        k = self.branch
-        mine, right = float(self.mine.ask(name, self.q[k], self.points, self.bounds)), self.limit.speed[k]
+    def _largest_speed(self, sketch, _values):
+        self.speed, k = None, self.branch
+        mine = float(self.mine.ask("largest_speed", self.q[k], self.points, self.bounds))
+        right = self.limit.speed[k]
         if not mine > 0:
             raise Trouble(f"a speed of {mine:g} m/s leads nowhere")
         self.speed = mine

@@ -1,13 +1,11 @@
 """Notebook 04: where the student's angles lead, and what they say is lost."""
 
-from collections.abc import Sequence
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 from coursekit.view import text
-from coursekit.view.controls import Action, Control
+from coursekit.view.controls import Action
 from coursekit.view.explorers import Explorer
 from coursekit.view.sketch import ZERO, Trouble, gap, like_the_kr6, size
 
@@ -17,10 +15,7 @@ from .steps import wrist
 class Singularities(Explorer):
     """Notebook 04: where the student's angles lead, and what they say is lost."""
 
-    ends: dict[str, Any]
-
-    def more(self) -> Sequence[Control]:
-        """See `Explorer`."""
+    def _more(self):
         self.ends = {}  # name -> where the student's angle leads
         labels = {"elbow_angle": "to your elbow", "shoulder_theta3": "to your shoulder"}
         return [
@@ -29,26 +24,21 @@ class Singularities(Explorer):
             if name in self.mine.functions
         ]
 
-    def yours(self, name: str, values: dict[str, Any]) -> str:
-        """See `Explorer`."""
-        theta, sketch = values["theta"], self.sketch(name)
-        if name in ("elbow_angle", "shoulder_theta3"):
-            return self._stand(sketch, name, theta)
-        if name == "lost_motion":
-            return self._lost(sketch, theta)
-        if name == "rank":
-            sigma = np.linalg.svd(self.robot.jacobian_body(theta))[1]
-            right = int((sigma > 1e-9 * sigma[0]).sum())
-            mine = float(self.mine.ask(name, self.robot.jacobian_body(theta), 1e-9))
-            return f"{mine:g}, which is right" if mine == right else f"{mine:g}; the rank is {right}"
-        J, right = self._at_thewrist(theta)
-        mine = float(self.mine.ask(name, J))
+    def _rank(self, _sketch, values):
+        J = self.robot.jacobian_body(values["theta"])
+        sigma, mine = np.linalg.svd(J)[1], float(self.mine.ask("rank", J, 1e-9))
+        right = int((sigma > 1e-9 * sigma[0]).sum())
+        return f"{mine:g}, which is right" if mine == right else f"{mine:g}; the rank is {right}"
+
+    def _det_from_blocks(self, _sketch, values):
+        J = self._at_the_wrist(values["theta"])
+        mine, right = float(self.mine.ask("det_from_blocks", J)), float(np.linalg.det(J))
         off = abs(mine - right)
         told = "below 1e-9 of the right one" if off <= ZERO else f"the right one is {text.number(right, 6)}"
         return f"det J = {text.number(mine, 6)} m^3, {told}"
 
-    def _at_thewrist(self, theta):
-        """J with its reference point at the wrist centre, and its determinant."""
+    def _at_the_wrist(self, theta):
+        """J with its reference point at the wrist centre."""
         J, tool = self.robot.jacobian_geometric(theta), self.robot.fk(theta)[:3, 3]
         if self.robot.n != 6:
             raise Trouble(f"it is for six joints, and {self.robot.name} has {self.robot.n}")
@@ -57,47 +47,51 @@ class Singularities(Explorer):
         if np.abs(J[3:, 3:]).max() > ZERO:
             raise Trouble(f"it is for arms whose last three axes meet; those of {self.robot.name} do not")
         J[3:, 3:] = 0
-        return J, float(np.linalg.det(J))
+        return J
 
     def _drive(self, name):
-        end = self.ends.get(name)
-        if end is not None:
-            self.panel.play(np.linspace(self.panel.values["theta"], end, 31))
+        if self.ends.get(name) is not None:
+            self._drive_to(self.ends[name])
 
-    def _stand(self, sketch, name, theta):
-        """The arm at the student's theta_3, and how far its wrist is from where it should be."""
-        self.ends[name] = None
+    def _elbow_angle(self, sketch, values):
+        self.ends["elbow_angle"] = None
+        (_, _, a2, a3, d4), tool = like_the_kr6(self.robot)
+        angle = float(self.mine.ask("elbow_angle", a3, d4))
+        P, shoulder, elbow = self._stand(sketch, "elbow_angle", values["theta"], angle, tool)
+        along = (elbow - shoulder) / a2
+        foot = shoulder + along * (along @ (P - shoulder))
+        doubt = "; but the arm is folded, not stretched" if (P - elbow) @ along < 0 else ""
+        return self._miss(sketch, angle, P, foot, "the line through axes 2 and 3", doubt)
+
+    def _shoulder_theta3(self, sketch, values):
+        self.ends["shoulder_theta3"], theta = None, values["theta"]
         (a1, _, a2, a3, d4), tool = like_the_kr6(self.robot)
-        if name == "elbow_angle":
-            angle = float(self.mine.ask(name, a3, d4))
-        else:
-            reach = -(a1 + a2 * np.cos(theta[1])) / np.hypot(a3, d4)
-            if abs(reach) > 1:
-                raise Trouble("at this theta_2 no theta_3 brings the wrist to axis 1")
-            higher = np.arctan2(a3, d4) - np.arccos(reach) - theta[1]
-            angle = float(self.mine.ask(name, float(theta[1]), np.array([a1, a2, a3, d4, tool])))
-        end = np.array([*theta[:2], angle, *theta[3:]])
-        self.ends[name] = end
-        P = wrist(self.robot.fk(end), tool)
-        frames = self.robot.link_frames(end)
-        shoulder, elbow = frames[1, :3, 3], frames[2, :3, 3]
-        if name == "elbow_angle":
-            along, where = (elbow - shoulder) / a2, "the line through axes 2 and 3"
-            foot = shoulder + along * (along @ (P - shoulder))
-            doubt = "; but the arm is folded, not stretched" if (P - elbow) @ along < 0 else ""
-        else:
-            foot, where = np.array([0, 0, P[2]]), "axis 1"
-            is_higher = np.cos(angle - higher) > 1 - ZERO
-            doubt = "" if is_higher else "; but that is the lower of the two"
-        off = float(np.linalg.norm(P - foot))
+        reach = -(a1 + a2 * np.cos(theta[1])) / np.hypot(a3, d4)
+        if abs(reach) > 1:
+            raise Trouble("at this theta_2 no theta_3 brings the wrist to axis 1")
+        higher = np.arctan2(a3, d4) - np.arccos(reach) - theta[1]
+        lengths = np.array([a1, a2, a3, d4, tool])
+        angle = float(self.mine.ask("shoulder_theta3", float(theta[1]), lengths))
+        P, *_ = self._stand(sketch, "shoulder_theta3", theta, angle, tool)
+        doubt = "" if np.cos(angle - higher) > 1 - ZERO else "; but that is the lower of the two"
+        return self._miss(sketch, angle, P, np.array([0, 0, P[2]]), "axis 1", doubt)
+
+    def _stand(self, sketch, name, theta, angle, tool):
+        """Draw the arm at the student's theta_3; its wrist, shoulder and elbow there."""
+        self.ends[name] = end = np.array([*theta[:2], angle, *theta[3:]])
         sketch.arm(self.robot, self.robot.displacements(end))
+        return wrist(self.robot.fk(end), tool), *self.robot.link_frames(end)[1:3, :3, 3]
+
+    def _miss(self, sketch, angle, P, foot, where, doubt):
+        """How far the wrist is from where it should be; `doubt` is said of one that is there."""
         sketch.gap("gap", foot, P)
-        miss = gap(off)
-        told = f"at your theta_3 = {text.degrees(angle)} the wrist centre is {miss} from {where}"
+        off = float(np.linalg.norm(P - foot))
+        told = f"at your theta_3 = {text.degrees(angle)} the wrist centre is {gap(off)} from {where}"
         return told + (doubt if off <= ZERO else "")
 
-    def _lost(self, sketch, theta):
+    def _lost_motion(self, sketch, values):
         """The student's twist, read as the load that no joint feels: at the wrist, as arrows."""
+        theta = values["theta"]
         J = self.robot.jacobian_space(theta)
         s = self.mine.ask("lost_motion", J)
         long = np.linalg.norm(s)

@@ -52,17 +52,16 @@ def iterate(
     return np.array(thetas), (0.0 if rows.start == 3 else float(angle), float(distance))
 
 
-def run(thetas: np.ndarray, left: tuple[float, float] | None, off: float) -> str:
-    """What became of the student's steps, in words. off: of the first step, from the right one."""
+def run(thetas: np.ndarray, left: tuple[float, float] | None, first: np.ndarray) -> str:
+    """What became of the student's steps, in words. first: what the first of them should be."""
     count = len(thetas) - 1
     if left is None and not count:
         return "the first step runs away"
-    first = (
-        "the first step is right, below 1e-9" if off <= ZERO else f"the first step is off by {size(off)} rad"
-    )
+    off = np.abs(thetas[1] - thetas[0] - first).max() if count else 0.0
+    told = f"the first step is {'right, below 1e-9' if off <= ZERO else f'off by {size(off)} rad'}"
     if left is None:
-        return f"{first}; step {count + 1} runs away"
+        return f"{told}; step {count + 1} runs away"
     longest = np.linalg.norm(np.diff(thetas, axis=0), axis=-1).max(initial=0.0)
     if max(left) < 1e-8:
-        return f"{first}; {count} steps to the target, the longest {text.number(longest, 2)} rad"
-    return f"{first}; after {count} steps still {gap(left[1], left[0])} away"
+        return f"{told}; {count} steps to the target, the longest {text.number(longest, 2)} rad"
+    return f"{told}; after {count} steps still {gap(left[1], left[0])} away"
