@@ -88,6 +88,18 @@ def hinges(robot: Robot) -> np.ndarray:
     return np.array([kind == "revolute" for kind in robot.joint_types])
 
 
+def shown_per_si(robot: Robot) -> np.ndarray:
+    """What a radian or a metre of each joint is in degrees or millimetres, in which it is shown: (n,)."""
+    return np.where(hinges(robot), 180 / np.pi, 1000.0)
+
+
+def ends_of(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
+    """Limits of the joints (n,), (n,); where there is none, half a turn or 1 m either way."""
+    free = np.where(hinges(robot), np.pi, 1.0)
+    low, high = np.isfinite(robot.q_min), np.isfinite(robot.q_max)
+    return np.where(low, robot.q_min, -free), np.where(high, robot.q_max, free)
+
+
 def _stretches(robot):
     """The joints with enter, leave and along, still without thickness."""
     slides, direction = [kind == "prismatic" for kind in robot.joint_types], axes.directions_of(robot.S)

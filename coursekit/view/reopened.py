@@ -42,19 +42,19 @@ def page_of(line: str) -> str | None:
     True
     """
     from coursekit import robots, view
+    from coursekit.view.chain import shown_per_si
 
     found = _LINE.match(line)
     arms = {arm.name: arm for arm in robots.all().values()}
     if found is None or found["title"] not in EXPLORERS or found["name"] not in arms:
         return None
     robot = arms[found["name"]]
-    per_si = np.where(np.array(robot.joint_types) == "revolute", 180 / np.pi, 1000)
     shown = np.array([float(number) for number in re.findall(r"-?\d+\.\d+", found["joints"])])
     with _ONE_AT_A_TIME:
         panel = getattr(view, EXPLORERS[found["title"]])(robot)
         try:
             if "theta" in panel.values and shown.shape == (robot.n,):
-                panel.set(theta=np.clip(shown / per_si, robot.q_min, robot.q_max))
+                panel.set(theta=np.clip(shown / shown_per_si(robot), robot.q_min, robot.q_max))
             return view.to_html(panel)
         finally:
             panel.close()

@@ -172,7 +172,7 @@ def test_the_weakest_pose_by_one_joint_is_no_worse_than_any_other():
     theta = np.array([0.2, 0.9, 0.5, 0.3, 0.7, 0.1])
     end = singularities.weakest(stanford, theta)
     assert (end != theta).sum() == 1 and stanford.within_limits(end)
-    low, high = singularities.nb04.ends_of(stanford)
+    low, high = singularities.ends_of(stanford)
     for joint in range(6):
         turned = np.tile(theta, (500, 1))
         turned[:, joint] = np.linspace(low[joint], high[joint], 500)

@@ -1,6 +1,5 @@
 """Notebook 01: one arm by three conventions, and their frames side by side."""
 
-from collections.abc import Callable
 from itertools import accumulate
 
 import numpy as np
@@ -11,15 +10,13 @@ from coursekit.kinematics.robot import Robot
 from coursekit.view import pointing, questions, text
 from coursekit.view.controls import Toggle, joint_sliders
 from coursekit.view.explorers import Explorer
+from coursekit.view.mine import Given
 from coursekit.view.panel import Panel
 from coursekit.view.sketch import ZERO, Trouble
 
 
 def explore(
-    robot: Robot | None = None,
-    height: int = 470,
-    theta: ArrayLike | None = None,
-    mine: Callable | list | dict | None = None,
+    robot: Robot | None = None, height: int = 470, theta: ArrayLike | None = None, mine: Given = None
 ) -> Panel:
     """Open the explorer of standard DH, modified DH and the product of exponentials.
 

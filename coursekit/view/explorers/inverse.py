@@ -1,7 +1,6 @@
 """Notebook 03: every configuration that reaches a pose, and the one Newton's method finds from a guess."""
 
 import functools
-from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -9,10 +8,11 @@ from numpy.typing import ArrayLike
 from coursekit.kinematics import ik, robots, rotations
 from coursekit.kinematics.robot import Robot
 from coursekit.view import pointing, questions, text
-from coursekit.view.chain import hinges
+from coursekit.view.chain import hinges, shown_per_si
 from coursekit.view.controls import Action, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.explorers.solver import Solver
+from coursekit.view.mine import Given
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot, decades
 from coursekit.view.silhouettes import silhouettes
@@ -27,10 +27,7 @@ STEPS = 50
 
 
 def explore_inverse(
-    robot: Robot | None = None,
-    height: int = 470,
-    target: ArrayLike | None = None,
-    mine: Callable | list | dict | None = None,
+    robot: Robot | None = None, height: int = 470, target: ArrayLike | None = None, mine: Given = None
 ) -> Panel:
     """Open the explorer of inverse kinematics.
 
@@ -238,7 +235,7 @@ class _Inverse(yours.Inverse, Explorer):
         """Header and rows: branch, joint values, whether the limits are kept, or why not."""
         if self.asking:
             return [], []
-        per = np.where(self.solver.turns, 180 / np.pi, 1000.0)
+        per = shown_per_si(self.robot)
         units = ["deg" if turns else "mm" for turns in self.solver.turns]
         header = ["branch" if self.solver.closed else "solution"]
         header += [*(f"θ{i + 1} [{unit}]" for i, unit in enumerate(units)), "limits"]

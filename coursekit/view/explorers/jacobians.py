@@ -1,6 +1,6 @@
 """Notebook 05: ellipsoids at the tool, one Jacobian by four methods, Newton against damped least squares."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import partial
 
 import numpy as np
@@ -12,6 +12,7 @@ from coursekit.view import pointing, questions, text
 from coursekit.view.chain import hinges
 from coursekit.view.controls import Action, Slider, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
+from coursekit.view.mine import Given
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot, decades
 from coursekit.view.shapes import frame_along
@@ -39,7 +40,7 @@ def explore_jacobians(
     height: int = 470,
     poses: Mapping[str, ArrayLike] | None = None,
     theta: ArrayLike | None = None,
-    mine: Callable | list | dict | None = None,
+    mine: Given = None,
 ) -> Panel:
     """Open the explorer of Jacobian methods.
 

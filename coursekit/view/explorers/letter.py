@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from coursekit.kinematics import ik, path
 from coursekit.kinematics.robot import Robot
 from coursekit.view import text
-from coursekit.view.chain import chain, hinges
+from coursekit.view.chain import chain, ends_of
 from coursekit.view.explorers.solver import Solver, Ways
 
 SAMPLES = 101  # points by which it is decided which letter an arm can follow
@@ -123,8 +123,7 @@ class Letter:
 
 def _freest(robot):
     """Of some configurations inside the limits, the one whose tool point moves most freely."""
-    free = np.where(hinges(robot), np.pi, 1.0)
-    low, high = (np.where(np.isfinite(q), q, e) for q, e in ((robot.q_min, -free), (robot.q_max, free)))
+    low, high = ends_of(robot)
     middle, half = (low + high) / 2, 0.35 * (high - low)  # not at the ends
     some = middle + np.random.default_rng(0).uniform(-half, half, (300, robot.n))
     sigma = np.linalg.svd(robot.jacobian_geometric(some)[:, 3:], compute_uv=False)

@@ -1,6 +1,6 @@
 """Notebook 06: an arm that draws a letter S on a sphere, every way it can, as fast as its joints allow."""
 
-from collections.abc import Callable
+import functools
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,7 +10,8 @@ from coursekit.kinematics.robot import Robot
 from coursekit.view import pointing, questions, text
 from coursekit.view.controls import Choice, Toggle
 from coursekit.view.explorers import Explorer, yours
-from coursekit.view.explorers.letter import Followed, Letter
+from coursekit.view.explorers.letter import Letter
+from coursekit.view.mine import Given
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
 from coursekit.view.prediction import ROOT
@@ -28,10 +29,7 @@ CAPTION = (
 
 
 def explore_path(
-    robot: Robot | None = None,
-    points: ArrayLike | None = None,
-    height: int = 470,
-    mine: Callable | list | dict | None = None,
+    robot: Robot | None = None, points: ArrayLike | None = None, height: int = 470, mine: Given = None
 ) -> Panel:
     """Open the explorer of a path: a curve on a sphere with its outward normals, and the arm that follows it.
 
@@ -63,8 +61,8 @@ class _Path(yours.Path, Explorer):
     def __init__(self, robot, curve, mine):
         super().__init__(mine, robot)
         self.letter = Letter(robot, curve)
-        self.known: dict[int, Followed] = {}
-        first, n = self._follow(POINTS[0]), POINTS[0]
+        self.follow = functools.cache(self.letter.follow)
+        first, n = self.follow(POINTS[0]), POINTS[0]
         self.names = first.names
         inside = np.where(first.reached == n, first.inside, -1)
         best = np.flatnonzero(inside == inside.max())
@@ -124,14 +122,9 @@ class _Path(yours.Path, Explorer):
         for name, drawn in self.switched.items():
             drawn.show(values[name])
 
-    def _follow(self, n):
-        if n not in self.known:
-            self.known[n] = self.letter.follow(n)
-        return self.known[n]
-
     def choose(self, n, bounds, branch, wrapped):
         """Take what the controls say."""
-        now = self._follow(n)
+        now = self.follow(n)
         self.points, self.q, self.reached, self.inside = now.points, now.q, now.reached, now.inside
         self.branch, self.bounds, self.wrapped = branch, bounds, wrapped
         self.limit = path.speed_limit(self.q, self.points, bounds)

@@ -1,7 +1,5 @@
 """Notebook 02: one joint after the other at the home pose, from the axis and a point on it to the screw."""
 
-from collections.abc import Callable
-
 import numpy as np
 
 from coursekit.kinematics import axes, lie, robots
@@ -10,13 +8,12 @@ from coursekit.view import pointing, questions, text
 from coursekit.view.chain import hinges
 from coursekit.view.controls import Choice, Slider
 from coursekit.view.explorers import Explorer
+from coursekit.view.mine import Given
 from coursekit.view.panel import Panel
 from coursekit.view.sketch import ZERO, Trouble, apart, gap, size
 
 
-def explore_screws(
-    robot: Robot | None = None, height: int = 470, mine: Callable | list | dict | None = None
-) -> Panel:
+def explore_screws(robot: Robot | None = None, height: int = 470, mine: Given = None) -> Panel:
     """Open the explorer of screws: a joint axis, a point q on it, v = -w x q, and the column of S or B.
 
     The arm stands at zero and only the chosen joint moves. The point q can be slid along its axis, and the

@@ -8,8 +8,7 @@ from numpy.typing import ArrayLike
 from coursekit.kinematics import singularity
 from coursekit.kinematics.robot import Robot
 from coursekit.view import questions
-from coursekit.view.chain import hinges
-from coursekit.view.figures import nb04
+from coursekit.view.chain import ends_of, hinges
 
 
 def weakest(robot: Robot, theta: ArrayLike) -> np.ndarray:
@@ -21,7 +20,7 @@ def weakest(robot: Robot, theta: ArrayLike) -> np.ndarray:
     >>> int(np.flatnonzero(end != panda.home)[0]) + 1, bool(singularity.sigma_min(panda, end) < 0.01)
     (4, True)
     """
-    theta, (low, high) = np.asarray(theta, float), nb04.ends_of(robot)
+    theta, (low, high) = np.asarray(theta, float), ends_of(robot)
     best = theta
     for joint in range(robot.n):
         a, b = low[joint], high[joint]
@@ -48,7 +47,7 @@ def nearest(robot: Robot, theta: ArrayLike, name: str) -> np.ndarray | None:
     0.083141
     """
     theta = np.asarray(theta, float)
-    low, high = nb04.ends_of(robot)
+    low, high = ends_of(robot)
     found = []
     for joint in range(1, 5):
         turned = np.array([theta] * 3)
@@ -78,6 +77,6 @@ def singular_poses(robot: Robot, split: bool, number: int) -> Iterator[np.ndarra
 
 def start_of(robot: Robot) -> np.ndarray:
     """A regular configuration near home, (n,); slides in the middle of their way."""
-    low, high = nb04.ends_of(robot)
+    low, high = ends_of(robot)
     turned = robot.home + np.resize(np.radians([0, 10, 20, 25, 45, 0]), robot.n)
     return np.clip(np.where(hinges(robot), turned, (low + high) / 2), low, high)

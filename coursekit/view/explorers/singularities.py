@@ -1,6 +1,5 @@
 """Notebook 04: det J and its factors live, what is lost, and a map of the singularities over two joints."""
 
-from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -9,11 +8,12 @@ from numpy.typing import ArrayLike
 from coursekit.kinematics import axes, robots, singularity
 from coursekit.kinematics.robot import Robot
 from coursekit.view import pointing, questions, text
-from coursekit.view.chain import hinges
+from coursekit.view.chain import ends_of, hinges, shown_per_si
 from coursekit.view.controls import Action, Choice, Toggle, joint_sliders
 from coursekit.view.explorers import Explorer, yours
 from coursekit.view.explorers.singular import nearest, singular_poses, start_of, weakest
 from coursekit.view.figures import nb04
+from coursekit.view.mine import Given
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot
 
@@ -37,10 +37,7 @@ LOST = 1e-9  # singular values below are 0
 
 
 def explore_singularities(
-    robot: Robot | None = None,
-    height: int = 470,
-    theta: ArrayLike | None = None,
-    mine: Callable | list | dict | None = None,
+    robot: Robot | None = None, height: int = 470, theta: ArrayLike | None = None, mine: Given = None
 ) -> Panel:
     """Open the explorer of singularities.
 
@@ -199,20 +196,20 @@ class _Singularities(yours.Singularities, Explorer):
 
     def here(self, values):
         """The arm as a point of the map."""
-        return (values["theta"] * _shown_per_si(self.robot))[[values["across"], values["up"]]]
+        return (values["theta"] * shown_per_si(self.robot))[[values["across"], values["up"]]]
 
     def step(self, dx, dy):
         """By arrow keys: five degrees, or fifty millimetres."""
         values = self.panel.values
         chosen = [values["across"], values["up"]]
-        per = _shown_per_si(self.robot)[chosen]
+        per = shown_per_si(self.robot)[chosen]
         self.click(*(per * values["theta"][chosen] + np.where(per > 100, 50, 5) * [dx, dy]))
 
     def click(self, x, y):
         values = self.panel.values
         theta, chosen = values["theta"], [values["across"], values["up"]]
-        theta[chosen] = np.array([x, y]) / _shown_per_si(self.robot)[chosen]
-        self.panel.set(theta=np.clip(theta, *nb04.ends_of(self.robot)))
+        theta[chosen] = np.array([x, y]) / shown_per_si(self.robot)[chosen]
+        self.panel.set(theta=np.clip(theta, *ends_of(self.robot)))
 
     def drive_to(self, kind):
         robot, start = self.robot, self.panel.values["theta"]
@@ -271,7 +268,7 @@ def _of_few_joints(robot, theta):
     """What an arm with fewer than six joints lacks everywhere, and how its tool point alone can move."""
     if robot.n >= 6:
         return []
-    some = np.random.default_rng(1).uniform(*nb04.ends_of(robot), (5, robot.n))
+    some = np.random.default_rng(1).uniform(*ends_of(robot), (5, robot.n))
     best = np.linalg.matrix_rank(robot.jacobian_geometric(some)[:, 3:], tol=LOST).max()
     sigma = np.linalg.svd(robot.jacobian_geometric(theta)[3:], compute_uv=False)[:best]
     rank = int((sigma > LOST).sum())
@@ -283,10 +280,6 @@ def _of_few_joints(robot, theta):
 def _factor_of(k):
     """The factor that is 0 where something lies at the axis of joint k."""
     return {1: "shoulder", 2: "elbow", 3: "elbow", 4: "wrist", 6: "wrist"}.get(k, "")
-
-
-def _shown_per_si(robot):
-    return np.where(hinges(robot), 180 / np.pi, 1000.0)
 
 
 def _one_is_lost(robot, theta):

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import singularity
 from coursekit.kinematics.robot import Robot
-from coursekit.view.chain import hinges
+from coursekit.view.chain import ends_of, shown_per_si
 from coursekit.view.figures import INK, axes_3d, blank, limits_3d, palette, show
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def draw_map(ax: Axes, robot: Robot, theta: ArrayLike, i: int, j: int) -> None:
     held[[i, j]] = 0
     split = has_factors(robot)
     x, y, values = (_factors_over if split else _sigma_over)(robot, i, j, tuple(held.round(9)))
-    per = [180 / np.pi if robot.joint_types[k] == "revolute" else 1000.0 for k in (i, j)]
+    per = shown_per_si(robot)[[i, j]]
     ends = [per[0] * x[0], per[0] * x[-1], per[1] * y[0], per[1] * y[-1]]
     bright = np.sqrt(np.abs(np.prod(list(values.values()), axis=0)))
     ax.imshow(bright, extent=tuple(ends), origin="lower", aspect="auto", cmap="viridis", vmin=0, vmax=1)
@@ -59,13 +59,6 @@ def has_factors(robot: Robot) -> bool:
     except ValueError:
         return False
     return True
-
-
-def ends_of(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
-    """Limits of the joints (n,), (n,); where there is none, half a turn or 1 m either way."""
-    free = np.where(hinges(robot), np.pi, 1.0)
-    low, high = np.isfinite(robot.q_min), np.isfinite(robot.q_max)
-    return np.where(low, robot.q_min, -free), np.where(high, robot.q_max, free)
 
 
 def _axis_name(robot, joint):
