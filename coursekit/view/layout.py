@@ -20,7 +20,10 @@ def column(controls: Sequence[Control | Sliders], reset: Action) -> ipywidgets.W
         if isinstance(control, Sliders):
             if control.in_picture:
                 continue
-            rows += _folded(control) if control.folded else control.sliders
+            if control.folded:  # under a title that unfolds them
+                rows.append(ipywidgets.Accordion([ipywidgets.VBox(control.sliders)], titles=[control.folded]))
+            else:
+                rows += control.sliders
             rows += [ipywidgets.HTML(control.legend)] if control.legend else []
         else:
             (switches if isinstance(control, Toggle | Action) else rows).append(control)
@@ -61,11 +64,6 @@ def _all(widgets):
     for widget in widgets:
         yield widget
         yield from _all(getattr(widget, "children", ()))
-
-
-def _folded(sliders):
-    """Sliders under a title that unfolds them."""
-    return [ipywidgets.Accordion([ipywidgets.VBox(sliders.sliders)], titles=[sliders.folded])]
 
 
 def _flow(gap, **more):

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 
 from .paint import PALETTE, Part, channels, color
 from .scene import Scene
-from .shapes import Mesh
+from .shapes import Mesh, plate
 from .stage import grid_lines
 
 STOCK = ("SpotLight", "PointLightNegativeX", "PointLightPositiveX", "AmbientLight", "FillLight")
@@ -254,7 +254,7 @@ def _array(values):
 
 def _geometry(part):
     if isinstance(part.shape, Mesh):
-        return buffers(part.shape.vertices, part.shape.faces, part.shape.normals)
+        return buffers(*part.shape)
     points = [{"x": round(float(r), 6), "y": round(float(h), 6)} for r, h in part.shape]
     return {"type": "LatheGeometry", "points": points, "segments": part.segments}
 
@@ -313,9 +313,7 @@ def _sky():
 
 
 def _floor(size, floor):
-    s = 1.6 * size
-    corners = np.array([[-s, -s, 0], [s, -s, 0], [s, s, 0], [-s, s, 0]])
-    shape = buffers(corners, np.array([[0, 1, 2], [0, 2, 3]]), np.tile([0.0, 0.0, 1.0], (4, 1)))
+    shape = buffers(*plate(3.2 * size))
     # a black shadow, because a colored one would shine on a dark page
     paint = {"type": "ShadowMaterial", "color": 0, "transparent": True, "opacity": 0.2, "depthWrite": False}
     mesh = {"receiveShadow": True, "renderOrder": -3, "matrix": _at(0, 0, floor - 0.001 * size)}

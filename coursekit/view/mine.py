@@ -27,6 +27,7 @@ from .sketch import ROOT, Trouble
 
 SLOW = 0.05  # seconds
 MEMORY = 100  # calls
+Given = Callable | list | dict | None  # what is given as `mine`
 
 
 class Wanted(NamedTuple):
@@ -117,7 +118,7 @@ class Mine:
     """
 
     def __init__(self, given: Any, opener: str) -> None:
-        self.wanted = WANTED.get(opener, {})
+        self.wanted = WANTED[opener]
         self.functions = _named(given, opener)
         self.said: dict[str, str] = {}
         self._took: dict[str, tuple[float, float]] = {}  # name -> seconds of the last look, when it ended
@@ -125,19 +126,19 @@ class Mine:
         self._changed, self._seconds = "", 0.0  # during a look
         self._known: dict[tuple, tuple] = {}  # the last calls: what came of them need not be asked again
 
-    def ask(self, name: str, *arguments: Any, finite: bool = True) -> Any:
+    def ask(self, name: str, *arguments: Any) -> Any:
         """What the function returns for copies of these arguments: an array, or a tuple of them.
 
-        Raises Trouble where that is no answer of the exercise's shape. Without `finite` NaN is an answer.
+        Raises Trouble where that is no answer of the exercise's shape.
         """
         if not self.wanted[name].signature:
-            return _read(self.functions[name], self.wanted[name].shape, finite)
-        key = name, finite, *map(_key, arguments)
+            return _read(self.functions[name], self.wanted[name].shape)
+        key = name, *map(_key, arguments)
         if key not in self._known:
             if len(self._known) >= MEMORY:
                 self._known.clear()
             try:
-                self._known[key] = *self._call(name, arguments, finite), None
+                self._known[key] = *self._call(name, arguments), None
             except Trouble as told:
                 self._known[key] = None, "", told
         value, changed, trouble = self._known[key]
@@ -146,7 +147,7 @@ class Mine:
             raise trouble
         return copy.deepcopy(value)
 
-    def _call(self, name, arguments, finite):
+    def _call(self, name, arguments):
         """The answer, and what is to be said of changed arguments."""
         wanted, function = self.wanted[name], self.functions[name]
         given, changed, begun = copy.deepcopy(arguments), "", time.monotonic()
@@ -163,7 +164,7 @@ class Mine:
         for argument, before, after in zip(names, arguments, given, strict=False):
             if not _equal(before, after):
                 changed = f"; it changes its argument {argument} (here it gets copies)"
-        return _read(value, wanted.shape, finite), changed
+        return _read(value, wanted.shape), changed
 
     def look(self, show: Callable[[str], str], scene: Scene, hurry: bool) -> bool:
         """Draw what every function says: show(name) draws and gives its words. Whether one has to wait.
@@ -182,12 +183,9 @@ class Mine:
             try:
                 with np.errstate(all="ignore"):
                     said = show(name)
-            except Trouble as trouble:
+            except (Trouble, ValueError, ArithmeticError) as error:
                 scene.remove(f"{ROOT}/{name}")
-                said = str(trouble)
-            except (ValueError, ArithmeticError, np.linalg.LinAlgError):
-                scene.remove(f"{ROOT}/{name}")
-                said = "what it returns cannot be drawn"
+                said = str(error) if isinstance(error, Trouble) else "what it returns cannot be drawn"
             self.said[name] = said + self._changed
             if self._seconds:  # it was called; what is known costs nothing
                 self._took[name] = self._seconds, time.monotonic()
@@ -203,14 +201,11 @@ class Mine:
 
 def _named(given: Any, opener: str) -> dict[str, Any]:
     """Name of the exercise -> function."""
-    wanted = WANTED.get(opener, {})
+    wanted = WANTED[opener]
     if given is None:
         return {}
-    if isinstance(given, Mapping):
-        named = dict(given)
-    else:
-        several = list(given) if isinstance(given, list | tuple) else [given]
-        named = {getattr(function, "__name__", "?"): function for function in several}
+    several = given if isinstance(given, list | tuple) else [given]
+    named = dict(given) if isinstance(given, Mapping) else {getattr(f, "__name__", "?"): f for f in several}
     for name, function in named.items():
         if name in wanted and not wanted[name].signature:
             continue
@@ -222,7 +217,7 @@ def _named(given: Any, opener: str) -> dict[str, Any]:
             where = f"; view.{elsewhere[0]} shows that one" if elsewhere else ""
             raise ValueError(
                 f"view.{opener} shows no function {name!r}{where}. It shows: {', '.join(wanted)}."
-                f' One of another name is given as mine={{"{next(iter(wanted), "")}": function}}'
+                f' One of another name is given as mine={{"{next(iter(wanted))}": function}}'
             )
     return named
 
@@ -230,11 +225,7 @@ def _named(given: Any, opener: str) -> dict[str, Any]:
 @contextlib.contextmanager
 def _quietly():
     """What a function prints at every step of a slider helps nobody, nor do numpy's warnings."""
-    with (
-        contextlib.redirect_stdout(io.StringIO()),
-        warnings.catch_warnings(),
-        np.errstate(all="ignore"),
-    ):
+    with contextlib.redirect_stdout(io.StringIO()), np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.simplefilter("ignore")
         yield
 
@@ -243,8 +234,8 @@ def _where(error: Exception, function: Any) -> str:
     """What was raised, and in which line of which function of the student's file or notebook."""
     said = f"{type(error).__name__}: {str(error).partition(chr(10))[0]}"
     home = getattr(getattr(function, "__code__", None), "co_filename", None)
-    frames = [(f, line) for f, line in traceback.walk_tb(error.__traceback__)]
-    ours = [(f.f_code, line) for f, line in frames if _same_place(f.f_code.co_filename, home)]
+    walked = traceback.walk_tb(error.__traceback__)
+    ours = [(f.f_code, line) for f, line in walked if _same_place(f.f_code.co_filename, home)]
     if not ours:
         return said
     code, line = ours[-1]
@@ -271,14 +262,14 @@ def _equal(before: Any, after: Any) -> bool:
     return callable(before) or isinstance(before, Robot) or before == after
 
 
-def _read(value: Any, shape: tuple, finite: bool) -> Any:
+def _read(value: Any, shape: tuple) -> Any:
     """The value as float arrays of the shape that is wanted."""
     if value is None:
         raise Trouble("it returns None: is there a `return` at its end?")
     if shape and isinstance(shape[0], tuple):
         if not isinstance(value, list | tuple) or len(value) != len(shape):
             raise Trouble(f"it should return {len(shape)} things, as a tuple")
-        return tuple(_read(one, its, finite) for one, its in zip(value, shape, strict=True))
+        return tuple(_read(one, its) for one, its in zip(value, shape, strict=True))
     no_array = Trouble(f"it returns no array of real numbers ({type(value).__name__})")
     if not isinstance(value, list | tuple | int | float) and not hasattr(value, "__array__"):
         raise no_array  # whatever else can be indexed numpy would read to its end, which some have not
@@ -292,6 +283,6 @@ def _read(value: Any, shape: tuple, finite: bool) -> Any:
     if array.ndim != len(shape) or any(b not in (None, a) for a, b in zip(array.shape, shape, strict=True)):
         wanted = str(shape).replace("None", "any number")
         raise Trouble(f"it returns shape {array.shape}, expected {wanted}")
-    if finite and not np.isfinite(array).all():
+    if not np.isfinite(array).all():
         raise Trouble("it returns numbers that are not finite (NaN or infinity)")
     return array

@@ -59,12 +59,12 @@ def steps(runs: Mapping[str, ArrayLike]) -> None:
     show()
 
 
-def damping(dampings: Iterable[float], gain: float = 1.0) -> None:
+def damping(dampings: Iterable[float]) -> None:
     """What one step makes of an error of length 1 along a singular direction, over its sigma."""
     ax = blank((5.6, 3.0))
     sigma = np.logspace(-3, 0.5, 200)
     ax.loglog(sigma, 1 / sigma, color=palette("bone"), label="Newton: 1/σ")
-    ax.loglog(sigma, gain * sigma, ":", color=palette("axis"), lw=1.8, label=f"transpose: gσ, g = {gain:g}")
+    ax.loglog(sigma, sigma, ":", color=palette("axis"), lw=1.8, label="transpose: gσ, g = 1")
     for k, (marker, line, color) in zip(dampings, LINES, strict=False):
         ax.loglog(sigma, sigma / (sigma**2 + k**2), line, color=palette(color), lw=1.8, label=f"k = {k:g}")
         ax.plot(k, 1 / (2 * k), marker, color=palette(color), ms=7)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 INTO, OUT_OF = "into the page", "out of the page"
+AXIS = 110.0  # mm, how long an axis is drawn
 SAME = 0.5  # mm: shorter than this is no length
 GREY = "#C9CFD8"
 
@@ -57,14 +58,7 @@ def side_view(
     ax.grid(alpha=0.2)
 
 
-def mark_axis(
-    ax: Axes,
-    name: str,
-    at: Sequence[float] | np.ndarray,
-    way: Any,
-    length: float = 110.0,
-    slides: bool = False,
-) -> None:
+def mark_axis(ax: Axes, name: str, at: Sequence[float] | np.ndarray, way: Any, slides: bool = False) -> None:
     """A joint axis: INTO (a cross), OUT_OF (a dot), or an arrow along `way`, a direction of the page."""
     color, here = palette("axis"), _point(at)
     if isinstance(way, str):
@@ -74,9 +68,9 @@ def mark_axis(
         return
     size = {"lw": 5, "mutation_scale": 20} if slides else {"lw": 2, "mutation_scale": 12}
     style = {"arrowstyle": "-|>", "color": color, **size}
-    ax.annotate("", _point(here, way, length), here, arrowprops=style, zorder=4)
+    ax.annotate("", _point(here, way, AXIS), here, arrowprops=style, zorder=4)
     beside = (6, 8) if abs(way[0]) > 0.5 else (8, -4)
-    ax.annotate(name, _point(here, way, length / 2), beside, textcoords="offset points", color=color)
+    ax.annotate(name, _point(here, way, AXIS / 2), beside, textcoords="offset points", color=color)
 
 
 def mark_frame(
