@@ -43,14 +43,8 @@ def _base(arm):
     stand = frame_along(arm.up, arm.foot)
     foot = loft([(0, 0, 0, 1.42 * r, 1.42 * r, 7), (thick, 0, 0, 1.42 * r, 1.42 * r, 7)], steps=1)
     waist = min(0.9 * r, 0.25 * height)
-    body = [
-        (0, 0.5 * thick),
-        (1.22 * r, 0.5 * thick),
-        (1.2 * r, thick),
-        (1.06 * r, thick + waist),
-        (0.98 * r, height),
-    ]
-    body = [*body, (0.94 * r, height + 0.03 * r), (0, height + 0.03 * r)]
+    body = [(0, 0.5 * thick), (1.22 * r, 0.5 * thick), (1.2 * r, thick), (1.06 * r, thick + waist)]
+    body += [(0.98 * r, height), (0.94 * r, height + 0.03 * r), (0, height + 0.03 * r)]
     return [Part(foot, "dark", stand), Part(body, "dark", stand)]
 
 
@@ -138,15 +132,11 @@ def _departure(joint):
 def _between(before, after):
     """The body of link i, from joint i to joint i + 1."""
     sideways = _arrives_sideways(before, after)
-    goal = (
-        after.split if after.bends else after.enter if sideways or after.travel is not None else after.split
-    )
-    if before.bends:
-        return _loft(before.split, before, goal, after)
+    enters = not after.bends and (sideways or after.travel is not None)
+    goal = after.enter if enters else after.split
     gap = np.linalg.norm(goal - before.leave)
-    straight = before.travel is None and not sideways and gap < 1.5 * max(after.radius, 1e-9)
-    on_one_line = before.travel is None and not after.bends and not sideways
-    if straight or on_one_line:
+    near = not after.bends or gap < 1.5 * max(after.radius, 1e-9)
+    if before.bends or (before.travel is None and not sideways and near):
         return _loft(before.split, before, goal, after)
     r, here = _collar(before), frame_along(before.along, before.split)
     out = float((before.leave - before.split) @ before.along)
@@ -155,9 +145,9 @@ def _between(before, after):
         corner = _drum(here, r, -0.8 * r, 0.8 * r)
     else:
         corner = _drum(here, r, 0.13 * r, out + r, caps=(False, True))
-    return corner + (
-        _loft(before.leave, before, goal, after, in_drum=True) if gap > 0.5 * after.radius else []
-    )
+    if gap > 0.5 * after.radius:
+        corner += _loft(before.leave, before, goal, after, in_drum=True)
+    return corner
 
 
 def _loft(start, a, goal, b, in_drum=False, end_scale=1.0):

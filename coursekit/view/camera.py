@@ -11,12 +11,8 @@ from .paint import Part
 FOV = 32.0  # vertical angle of view, degrees
 ASPECT = 1.25  # width by height of a picture
 
-STANDS = {
-    "home": (-58, 17),
-    "top": (-90, 89.9),
-    "side": (-90, 4),
-    "front": (0, 4),
-}  # azimuth, elevation, degrees
+# azimuth, elevation, degrees
+STANDS = {"home": (-58, 17), "top": (-90, 89.9), "side": (-90, 4), "front": (0, 4)}
 
 
 def views(low: np.ndarray, high: np.ndarray, size: float) -> dict[str, dict]:

@@ -88,27 +88,21 @@ class Prediction:
             self.scene.remove(ROOT)
             self.scene.see(self.question.seen)
             self.guess.fit(self.question.start, 2 * self.scene.size)
-        self._draw(self._tip())
+        self._draw()
 
-    def _tip(self):
+    def _draw(self):
         """The point; the tip of an arrow stays as far from its origin as it was at first."""
-        point, origin = self.guess.get(), self.question.origin
-        if origin is None:
-            return point
-        long = np.linalg.norm(self.question.start - origin)
-        way = point - origin
-        if np.linalg.norm(way) > TINY:
-            self.guess.put(origin + long / np.linalg.norm(way) * way)
-        return self.guess.get()
-
-    def _draw(self, point):
-        if self.guess.path not in self.scene.parts:
-            self.scene.point(self.guess.path, np.zeros(3), "your guess", "accent", 0.014 * self.scene.size)
-        T = np.eye(4)
-        T[:3, 3] = point
-        self.scene[self.guess.path].move(T)
-        if self.question.origin is not None:
-            self.scene.arrow(f"{ROOT}/arrow", self.question.origin, point - self.question.origin, "accent")
+        guess, origin, T = self.guess, self.question.origin, np.eye(4)
+        if origin is not None:
+            way, long = guess.get() - origin, np.linalg.norm(self.question.start - origin)
+            if np.linalg.norm(way) > TINY:
+                guess.put(origin + long / np.linalg.norm(way) * way)
+        T[:3, 3] = guess.get()
+        if guess.path not in self.scene.parts:
+            self.scene.point(guess.path, np.zeros(3), "your guess", "accent", 0.014 * self.scene.size)
+        self.scene[guess.path].move(T)
+        if origin is not None:
+            self.scene.arrow(f"{ROOT}/arrow", origin, guess.get() - origin, "accent")
 
     def words(self) -> list[str]:
         """The question, or what is told of the guess."""

@@ -60,7 +60,7 @@ class _Inverse(yours.Inverse, Explorer):
     def __init__(self, robot, target, mine):
         super().__init__(mine, robot)
         self.solver = Solver(robot)
-        start = _configuration(robot, self.solver.closed)
+        self.start = start = _configuration(robot, self.solver.closed)
         self.T = robot.fk(start) if target is None else np.array(target, float)
         self.pose = pose_sliders(self.T, robot, reach=self.solver.reaches if self.solver.closed else None)
         self.ways = self.solver.solve(self.T, start[None])
@@ -110,8 +110,7 @@ class _Inverse(yours.Inverse, Explorer):
 
     def begin(self, number):
         """Another target: the solutions of this one are known."""
-        start = _configuration(self.robot, self.solver.closed)
-        T = self.robot.fk(questions.a_pose(self.robot, start, number + 1))
+        T = self.robot.fk(questions.a_pose(self.robot, self.start, number + 1))
         self.pose.put([*T[:3, 3], *rotations.zyx(T[:3, :3])])
 
     def question(self, values):
