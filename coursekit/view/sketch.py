@@ -181,14 +181,6 @@ class Sketch:
         long = np.linalg.norm(way) > 1e-6 * self.scene.size
         self.scene.arrow(f"{self.path}/{key}", at, way if long else np.zeros(3), color, label)
 
-    def normals(self, key: str, points: np.ndarray, vectors: np.ndarray) -> None:
-        """Thin arrows from points (k, 3) along vectors (k, 3)."""
-        self.scene.normals(f"{self.path}/{key}", points, vectors, COLOR)
-
-    def ellipsoid(self, key: str, axes: np.ndarray, lengths: np.ndarray, at: np.ndarray) -> None:
-        """A translucent ellipsoid at (3,): directions as columns (3, 3), half lengths (3,)."""
-        self.scene.ellipsoid(f"{self.path}/{key}", axes, lengths, at, COLOR)
-
     def way(self, points: np.ndarray) -> None:
         """The way of the tool through points (k, 3), as far as it stays in sight."""
         gone = np.flatnonzero([not self.near(point) for point in points])

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from coursekit.kinematics import checks, rotations
 from coursekit.kinematics.robot import Robot
-from coursekit.view.chain import chain
+from coursekit.view.chain import chain, hinges
 from coursekit.view.controls import Slider, Sliders
 
 TURNS = {"yaw": np.pi, "pitch": np.pi / 2, "roll": np.pi}  # how far each goes either way
@@ -98,19 +98,18 @@ def reachable(reach: Reach, pose: ArrayLike, ends: ArrayLike) -> list[tuple[list
     return runs
 
 
-def pose_sliders(T: ArrayLike, robot: Robot, name: str = "pose", reach: Reach | None = None) -> PoseSliders:
+def pose_sliders(T: ArrayLike, robot: Robot, reach: Reach | None = None) -> PoseSliders:
     """Sliders whose value is (x, y, z, yaw, pitch, roll) in metres and radians, at first those of T (4, 4).
 
     They go a little further than the arm, so that a target may be out of its reach. `reach`: see `reachable`.
     """
-    slides = np.array([kind == "prismatic" for kind in robot.joint_types])
     way = np.maximum(np.abs(robot.q_min), np.abs(robot.q_max))
-    stretched = chain(robot).size + np.where(np.isfinite(way), way, 1.0)[slides].sum()
+    stretched = chain(robot).size + np.where(np.isfinite(way), way, 1.0)[~hinges(robot)].sum()
     far = np.ceil(12 * stretched) / 10
     T = checks.pose(checks.array(T, (4, 4), "T"), "T")
     x_y_z = (Slider(n, p, -far, far, "mm") for n, p in zip("xyz", T[:3, 3], strict=True))
     turns = zip(TURNS.items(), rotations.zyx(T[:3, :3]), strict=True)
-    sliders = PoseSliders(name, [*x_y_z, *(Slider(n, t, -end, end, "deg") for (n, end), t in turns)])
+    sliders = PoseSliders("pose", [*x_y_z, *(Slider(n, t, -end, end, "deg") for (n, end), t in turns)])
     if reach is not None:
         sliders.reach, sliders.legend = reach, LEGEND
     return sliders

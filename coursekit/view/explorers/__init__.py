@@ -134,9 +134,9 @@ class Explorer:
     def _say(self, values):
         return "\n".join([*self.prediction.words(), *self.words(values), *self.mine.words()])
 
-    def _drive_to(self, theta):
-        """A motion to theta (n,), from where the arm stands."""
-        self.panel.play(np.linspace(self.panel.values["theta"], theta, 31))
+    def _drive_to(self, theta, follow=None):
+        """A motion to theta (n,), also beyond the limits, where a slider would stop."""
+        self.panel.play(np.linspace(self.panel.values["theta"], theta, 31), follow=follow)
 
     def open(self, height: int, theta: ArrayLike | None = None) -> Panel:
         """The panel, `height` pixels of picture, the arm at theta (n,) where that is given."""

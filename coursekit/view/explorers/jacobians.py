@@ -222,9 +222,8 @@ class _Jacobians(yours.Jacobians, Explorer):
         return self._found
 
     def drive_to(self, theta):
-        """A motion leads beyond the limits, too, where a slider would stop."""
         self.playing = ""
-        self.panel.play(np.linspace(self.panel.values["theta"], theta, 31), follow=self.draw)
+        self._drive_to(theta, self.draw)
 
     def play(self, name, autoplay=True):
         """Show the steps of one method, two a second."""
@@ -234,15 +233,11 @@ class _Jacobians(yours.Jacobians, Explorer):
 
     def comparison(self, values):
         """Steps and longest step of both methods."""
-        parts = []
-        for name, title in (
-            ("newton", "Newton"),
-            ("damped", f"damped, k = {text.number(values['damping'], 2)}"),
-        ):
-            found = self.found(values)[name]
+        parts, unit = [], "rad" if hinges(self.robot).all() else "rad and m"
+        titles = "Newton", f"damped, k = {text.number(values['damping'], 2)}"
+        for title, found in zip(titles, self.found(values).values(), strict=True):
             longest = max(step.step for step in found.history)
             count = f"{found.iterations} steps" if found.converged else f"not there after {STEPS} steps"
-            unit = "rad and m" if "prismatic" in self.robot.joint_types else "rad"
             parts.append(f"{title}: {count}, the longest {text.number(longest, 2)} {unit}")
         begun = "" if self.frame is None or not self.playing else f" from the start, shown: step {self.frame}"
         return f"to {{d}}{begun}  " + "; ".join(parts)

@@ -5,7 +5,7 @@ import numpy as np
 from coursekit.kinematics import axes, lie, robots
 from coursekit.kinematics.robot import Robot
 from coursekit.view import pointing, questions, text
-from coursekit.view.chain import hinges
+from coursekit.view.chain import ends_of, hinges
 from coursekit.view.controls import Choice, Slider
 from coursekit.view.explorers import Explorer
 from coursekit.view.mine import Given
@@ -78,10 +78,9 @@ class _Screws(Explorer):
         unit = "mm" if self.slides(i) else "deg"
         if unit != self.unit:
             self.unit = unit
-            low, high = self.robot.q_min[i], self.robot.q_max[i]
-            ends = (low if np.isfinite(low) else -1.0, high if np.isfinite(high) else 1.0)
+            ends = [end[i] for end in ends_of(self.robot)] if unit == "mm" else [-np.pi, np.pi]
             self.turn.label = "slide joint" if unit == "mm" else "turn joint"
-            self.turn.fit(0.0, *(ends if unit == "mm" else (-np.pi, np.pi)), unit)
+            self.turn.fit(0.0, *ends, unit)
 
     def update(self, values):
         i, scene = values["joint"], self.scene

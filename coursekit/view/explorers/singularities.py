@@ -23,6 +23,8 @@ ZERO_WHERE = {
     "elbow": "0 where the wrist's centre lies in the plane of axes 2 and 3",
     "shoulder": "0 where the wrist's centre lies on axis 1",
 }
+# the factor that is 0 where something lies at the axis of this joint
+FACTOR_AT = {1: "shoulder", 2: "elbow", 3: "elbow", 4: "wrist", 5: "", 6: "wrist"}
 JOINTS = {f"θ{k + 1}": k for k in range(1, 5)}  # det J depends on no other joint
 CAPTION = (
     "Dark: det J is small. White lines: a factor is 0 (elbow dashed, shoulder solid, wrist dotted). "
@@ -113,7 +115,7 @@ class _Singularities(yours.Singularities, Explorer):
             ends = axes.foot(origins[k], q, w) + np.outer([-0.6, 0.6], w) * scene.size
             wire = np.linspace(*ends, 33)
             self.lines.append(scene.curve(self.arm.link(k + 1) + "/line", wire, "axis", 0.002 * scene.size))
-        pointing.axes(scene, self.arm, _factor_of if self.split else "J{}".format)
+        pointing.axes(scene, self.arm, FACTOR_AT.__getitem__ if self.split else "J{}".format)
         if self.split:  # the wrist's centre, for elbow and shoulder
             wrist = scene.point(
                 self.arm.link(4) + "/wrist", origins[4], "wrist", pointing.COLOR, 0.02 * scene.size
@@ -275,11 +277,6 @@ def _of_few_joints(robot, theta):
     verdict = "regular" if rank == best else "singular"
     few = f"{robot.n} joints: {6 - robot.n} of 6 motions are lost everywhere"
     return [f"{few}; the tool point alone: sigma {text.row(sigma, 5)}, rank {rank} of {best}, {verdict}"]
-
-
-def _factor_of(k):
-    """The factor that is 0 where something lies at the axis of joint k."""
-    return {1: "shoulder", 2: "elbow", 3: "elbow", 4: "wrist", 6: "wrist"}.get(k, "")
 
 
 def _one_is_lost(robot, theta):

@@ -6,7 +6,7 @@ from coursekit.kinematics import ik, jacobians, lie
 from coursekit.view import text
 from coursekit.view.controls import Action
 from coursekit.view.explorers import Explorer
-from coursekit.view.sketch import ZERO, Trouble, apart, size
+from coursekit.view.sketch import COLOR, ZERO, Trouble, apart, size
 
 from .steps import STEPS, ahead, iterate, run
 
@@ -110,7 +110,7 @@ class Jacobians(Explorer):
             is_frame = np.abs(axes.T @ axes - np.eye(3)).max() < 1e-6
             near = np.abs(self.scale[part] * lengths).max() < self.scene.size
             if values[part] and is_frame and near and (lengths >= 0).all():
-                sketch.ellipsoid(part, axes, self.scale[part] * lengths, tool)
+                self.scene.ellipsoid(f"{sketch.path}/{part}", axes, self.scale[part] * lengths, tool, COLOR)
             else:
                 self.scene.remove(f"{sketch.path}/{part}")
             off = np.abs(lengths - right).max()

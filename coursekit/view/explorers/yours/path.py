@@ -7,7 +7,7 @@ from coursekit.view import text
 from coursekit.view.chain import hinges
 from coursekit.view.controls import Action
 from coursekit.view.explorers import Explorer
-from coursekit.view.sketch import ZERO, Trouble, apart, gap, size
+from coursekit.view.sketch import COLOR, ZERO, Trouble, apart, gap, size
 
 FRAMES = 13  # of the path that are drawn
 SAMPLES = 51  # attitudes that are made again
@@ -31,7 +31,8 @@ class Path(Explorer):
         some = np.linspace(0, len(mine) - 1, FRAMES).round().astype(int)
         drawn = [T for T in mine[some] if sketch.near(T[:3, 3]) and np.abs(T[:3, :3]).max() < 2]
         axes = 0.06 * self.scene.size * np.array([T[:3, :3].T for T in drawn]).reshape(-1, 3)
-        sketch.normals("frames", np.repeat([T[:3, 3] for T in drawn], 3, axis=0).reshape(-1, 3), axes)
+        origins = np.repeat([T[:3, 3] for T in drawn], 3, axis=0).reshape(-1, 3)
+        self.scene.normals(f"{sketch.path}/frames", origins, axes, COLOR)
         off = np.flatnonzero(~((distance <= ZERO) & (angle <= ZERO)))
         if not off.size:
             return "every frame agrees, below 1e-9"
