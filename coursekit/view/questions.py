@@ -80,35 +80,31 @@ def a_move(robot: Robot, theta: np.ndarray, number: int, free: bool = False) -> 
 def where_after(robot: Robot, theta: np.ndarray, j: int, by: float, words: str, **more: Any) -> Question:
     """Where the tool will be when joint j (from 0) has gone on by `by` (rad or m) from theta (n,)."""
     S, start = robot.jacobian_space(theta), robot.fk(theta)[:3, 3]
-    right = _moved(S[:, j], by, start)
+
+    def moved(screw: np.ndarray, by: float = by) -> np.ndarray:
+        return _moved(screw, by, start)
+
+    right = moved(S[:, j])
     tol = min(NEAR * chain(robot).size, 0.25 * float(np.linalg.norm(right - start)))
     slides = robot.joint_types[j] == "prismatic"
-    w, turned = S[:3, j], "went" if slides else "turned"
     others = {
-        f"you {turned} the other way": _moved(S[:, j], -by, start),
+        f"you {'went' if slides else 'turned'} the other way": moved(S[:, j], -by),
         "that is where the tool is before the move": start,
-        f"as if the axis were where it is at zero, before joints 1 to {j} carry it": _moved(
-            robot.S[:, j], by, start
-        ),
-        "as if theta went by its last value, and not by the difference": _moved(
-            S[:, j], theta[j] + by, start
-        ),
+        f"as if the axis were where it is at zero, before joints 1 to {j} carry it": moved(robot.S[:, j]),
+        "as if theta went by its last value, and not by the difference": moved(S[:, j], theta[j] + by),
     }
     if not slides:
-        others["you turned about the right direction, but through the base: no lever"] = (
-            lie.exp3(by * w) @ start
-        )
+        no_lever = "you turned about the right direction, but through the base: no lever"
+        others[no_lever] = lie.exp3(by * S[:3, j]) @ start
     for k in (j - 1, j + 1):
         if 0 <= k < robot.n and robot.joint_types[k] == robot.joint_types[j]:
-            others[f"as if about axis {k + 1}" if not slides else f"as if joint {k + 1} slid"] = _moved(
-                S[:, k], by, start
-            )
+            others[f"as if joint {k + 1} slid" if slides else f"as if about axis {k + 1}"] = moved(S[:, k])
 
     def judge(guess: np.ndarray) -> Told:
         parts = (_along_line if slides else _about_axis)(S[:, j], by, start, guess, tol)
         return near(guess, right, others, tol, list(parts)), right
 
-    seen = np.array([start, right, _moved(S[:, j], -by, start)])
+    seen = np.array([start, right, moved(S[:, j], -by)])
     return Question(words, (robot.name, j, by, *theta), start, judge, seen, **more)
 
 
@@ -160,14 +156,11 @@ def which_elbow(
 
     words = f"{words} Where will joint {e + 1}, the elbow, be? Drag the point there."
     start, key = _carried(robot.displacements(now)[None, e], joints[e].enter)[0], theta.round(6).ravel()
-    return Question(
-        words,
-        (robot.name, *key),
-        start,
-        judge,
-        np.array([start, *places]),
-        show=lambda right: choose(int(np.linalg.norm(places - right, axis=1).argmin())),
-    )
+
+    def show(right: np.ndarray) -> None:
+        choose(int(np.linalg.norm(places - right, axis=1).argmin()))
+
+    return Question(words, (robot.name, *key), start, judge, np.array([start, *places]), show=show)
 
 
 def which_way(
