@@ -30,6 +30,7 @@ class Explorer:
     opener: ClassVar[str]  # the function of `view` that opens it
     in_space: ClassVar[bool] = True  # the space frame is drawn
     computed: ClassVar[tuple[str, ...]] = ()  # paths of what only `update` can place for another theta
+    prediction: Prediction  # made with the panel: an explorer that is refused leaves no widgets behind
 
     def __init__(self, student: Any, robot: Robot, *others: Robot) -> None:
         self.robot = robot
@@ -38,7 +39,6 @@ class Explorer:
         self.scene = Scene()
         self.joints: JointSliders | None = None  # those of theta, where there are some
         self.panel: Panel | None = None
-        self.prediction = Prediction(self.scene)
 
     @property
     def frame(self) -> int | None:
@@ -140,6 +140,7 @@ class Explorer:
 
     def open(self, height: int, theta: ArrayLike | None = None) -> Panel:
         """The panel, `height` pixels of picture, the arm at theta (n,) where that is given."""
+        self.prediction = Prediction(self.scene)
         picker = [Choice("robot", self.arms)] if len(self.arms) > 1 else []
         controls = [*picker, *self.controls(), *self._more(), *self.prediction.controls()]
         below = self.below()

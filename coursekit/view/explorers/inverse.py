@@ -221,14 +221,11 @@ class _Inverse(yours.Inverse, Explorer):
 
     def reached_by_newton(self):
         """The name of the solution at which Newton's method ended."""
-        nearest = self.solver.nearest(self.ways, self.found.theta)
-        if self.solver.closed:
+        nearest, apart = self.solver.nearest(self.ways, self.found.theta), self.solver.apart
+        away = apart(self.ways.theta[nearest], self.found.theta) if nearest >= 0 else np.inf
+        if self.solver.closed or np.abs(away).max() < 1e-3:
             return self.ways.names[nearest]
-        if nearest >= 0:
-            away = self.solver.apart(self.ways.theta[nearest], self.found.theta)
-            if np.abs(away).max() < 1e-3:
-                return self.ways.names[nearest]
-        return f"another solution, {self.say(self.solver.apart(self.found.theta, 0))}"
+        return f"another solution, {self.say(apart(self.found.theta, 0))}"
 
     def table(self, values):
         """Header and rows: branch, joint values, whether the limits are kept, or why not."""

@@ -136,10 +136,13 @@ class _Path(yours.Path, Explorer):
         """At most FRAMES poses of the branch, in real time at its largest speed."""
         n = len(self.points)
         self.shown = np.linspace(0, n - 1, min(n, FRAMES)).round().astype(int)
-        seconds = path.steps(self.points).sum() / self.limit.speed[self.branch]
-        fps, texts = (len(self.shown) - 1) / seconds, self._at(self.shown)
         self.scene.remove(ROOT)  # what is asked takes no part in it
-        self.panel.play(self.q[self.branch, self.shown], fps=fps, texts=texts, autoplay=False)
+        self._play_at(self.limit.speed[self.branch], self._at(self.shown), autoplay=False)
+
+    def _play_at(self, speed, texts, autoplay=True):
+        seconds = path.steps(self.points).sum() / speed
+        fps = (len(self.shown) - 1) / seconds
+        self.panel.play(self.q[self.branch, self.shown], fps=fps, texts=texts, autoplay=autoplay)
 
     # -- where is a joint at its bound, and where will the elbow be?
 

@@ -99,12 +99,9 @@ class Solver:
         inside = robot.within_limits(theta)
         names = tuple(f"solution {k + 1}" for k in range(len(theta)))
         reasons = tuple(ik.why_outside(robot, q) for q in theta)
-        count = f"found by restarts: at least {len(theta)}"
-        if endless:
-            count = f"found by restarts: endlessly many, {len(theta)} of them shown"
-        if self.rows == "linear":
-            count += ", the rotation is free"
-        count += f", {inside.sum()} inside the limits"
+        many = f"endlessly many, {len(theta)} of them shown" if endless else f"at least {len(theta)}"
+        free = ", the rotation is free" if self.rows == "linear" else ""
+        count = f"found by restarts: {many}{free}, {inside.sum()} inside the limits"
         return Ways(theta, np.ones(len(theta), bool), inside, names, reasons, count)
 
     def _some(self, theta, starts):

@@ -146,14 +146,10 @@ class Path(Explorer):
     def _play(self):
         if self.speed is None:
             return
-        seconds = path.steps(self.points).sum() / self.speed
         share = 100 * np.abs(path.joint_rates(self.q[self.branch], self.points, self.speed) / self.bounds)
         texts = []
         for i in self.shown:
             use = share[min(i, len(share) - 1)]
-            worst = text.number(use.max(), 0)
-            texts.append(
-                f"point {i + 1} at your speed: joint {use.argmax() + 1} at {worst} percent of its bound"
-            )
-        fps = (len(self.shown) - 1) / seconds
-        self.panel.play(self.q[self.branch, self.shown], fps=fps, texts=texts)
+            worst = f"joint {use.argmax() + 1} at {text.number(use.max(), 0)} percent of its bound"
+            texts.append(f"point {i + 1} at your speed: {worst}")
+        self._play_at(self.speed, texts)
