@@ -21,6 +21,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
+from textwrap import shorten
 from types import CodeType, FrameType
 from typing import Any
 
@@ -198,7 +199,9 @@ def _explain(exercise: Exercise, function: Callable, error: Exception, arguments
     except ValueError:  # a function without a signature
         pass
     said = re.sub(r", with gufunc signature \S+", "", str(error).partition("\n")[0].strip())
-    text = f"{type(error).__name__}: {said}"[:200]
+    plain = in_plain_words(said)
+    said = shorten(said, 100 if plain else 200, placeholder=" ...")
+    text = f"{type(error).__name__}: {said}"
     frame, at = _place(error)
     if frame is None:
         return Attempt(fault="error", text=f"it raises {text}")
@@ -210,8 +213,8 @@ def _explain(exercise: Exercise, function: Callable, error: Exception, arguments
     text = f"line {line} of {frame.f_code.co_name} raises {text}{_source_line(frame.f_code, at)}"
     if told := _variables(frame, at):
         text += f"\n  there {told}"
-    if told := in_plain_words(str(error)):
-        text += f"\n  {told}"
+    if plain:
+        text += f"\n  {plain}"
     return Attempt(fault="error", text=text)
 
 
@@ -229,7 +232,7 @@ def call_from(function: Callable, error: Exception) -> tuple[FrameType, int] | N
 
 
 def _source_line(code: CodeType, at: int) -> str:
-    source = linecache.getline(code.co_filename, at).strip()
+    source = shorten(linecache.getline(code.co_filename, at).strip(), 90, placeholder=" ...")
     return f": `{source}`" if source else ""
 
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-KINDS = ("close", "angle", "rotation", "up_to_sign", "columns_up_to_sign", "set", "any_solution")
+KINDS = ("close", "angle", "rotation", "up_to_sign", "columns_up_to_sign", "turn", "set", "any_solution")
 USUAL = "for ordinary numbers"
 NONE = "it returns None"
 
@@ -85,6 +85,7 @@ class Exercise:
                 "rotation"            close; and it is said if R is not a rotation, or T not a pose
                 "up_to_sign"          a vector whose sign is free
                 "columns_up_to_sign"  a matrix, each column of free sign
+                "turn"                an axis times an angle: at half a turn its sign is free
                 "set"                 rows (or numbers) in any order, each once, angles modulo 2 pi
                 "any_solution"        right if all laws hold (they must then not call the function)
     tol       : absolute: an entry farther than this from the right one is wrong.
@@ -236,12 +237,15 @@ def _numbers(value) -> np.ndarray:
     return array.astype(float)
 
 
+def fits(part: np.ndarray, shape: tuple) -> bool:
+    """Has it this shape? None is any number."""
+    return part.ndim == len(shape) and all(b in (None, a) for a, b in zip(part.shape, shape, strict=True))
+
+
 def misshapen(exercise: Exercise, parts: list[np.ndarray]) -> str:
     """'' or what is wrong with the shapes."""
     for number, (part, shape) in enumerate(zip(parts, exercise.shapes, strict=True), 1):
-        if part.ndim != len(shape) or any(
-            b is not None and a != b for a, b in zip(part.shape, shape, strict=True)
-        ):
+        if not fits(part, shape):
             which = f"result {number} has shape" if exercise.several else "the shape is"
             return f"{which} {part.shape}, expected {_show_shape(shape)}"
     return ""

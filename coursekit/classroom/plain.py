@@ -26,6 +26,7 @@ WORDS = {
     "divide by zero": "a division by 0",
     "encountered in divide": "0 divided by 0",
     "encountered in scalar divide": "0 divided by 0",
+    "bitwise_xor": "a power is written x ** 2; ^ does something else, with bits",
     "object is not callable": "round brackets call a function: a * is missing, or square ones are meant",
     "object is not subscriptable": "square brackets take a part of an array: round ones call a function",
 }

@@ -16,6 +16,7 @@ from __future__ import annotations
 import dis
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from types import CodeType
 
 import numpy as np
@@ -25,7 +26,7 @@ from . import compare
 from .already import not_a_pose, what_is_right
 from .attempt import Attempt, line_of_nan
 from .attempt import attempt as call
-from .exercise import NONE, Exercise, misshapen, thaw
+from .exercise import NONE, Exercise, fits, misshapen, thaw
 from .library import permitted
 from .plain import in_plain_words
 from .repair import Found, repair
@@ -100,11 +101,15 @@ def verdict(
     answers = [attempt.parts for attempt in attempts]
     found = _cannot_be_judged(exercise, examples, attempts)
     good = [not found and example.agrees(parts) for example, parts in zip(examples, answers, strict=True)]
+    if function and not all(good) and (text := _remembers(exercise, function, examples, attempts)):
+        return Verdict("named", text, step="remembers", example=good.index(False))
     if function and not all(good) and (text := _another_word(exercise, function, examples, attempts)):
         return Verdict("named", text, step="word", example=good.index(False))
     if found:
         hint = None if found.step == "changed" else _named(exercise, examples, answers)
         return Verdict("named", hint.text, step=hint.key, example=found.example) if hint else found
+    if all(good) and _rounded(exercise, examples, answers):
+        return Verdict("named", "your numbers are rounded: give them as they are", step="rounded", example=0)
     if all(good):
         return _right(examples, attempts, allowed)
     first = good.index(False)
@@ -132,11 +137,10 @@ def verdict(
 
 # ---- 1: it cannot be judged
 
-RESHAPED: tuple[tuple[str, Callable[[Parts], Parts]], ...] = (
-    ("Rows and columns have changed places: x.T turns them", lambda parts: tuple(p.T for p in parts)),
-    ("The numbers are right: x.ravel() has them in one row", lambda parts: tuple(p.ravel() for p in parts)),
-    ("The number is right, but in brackets: x.item() takes it out", lambda parts: (parts[0].reshape(()),)),
-    ("The results stand in another order", lambda parts: parts[::-1]),
+RESHAPED: tuple[tuple[str, Callable[[np.ndarray], np.ndarray]], ...] = (
+    ("Rows and columns have changed places: x.T turns them", np.transpose),
+    ("The numbers are right: x.ravel() has them in one row", np.ravel),
+    ("The number is right, but in brackets: x.item() takes it out", lambda part: part.reshape(())),
 )
 
 
@@ -164,12 +168,17 @@ def _but_for_the_shape(exercise: Exercise, examples: list[Example], attempts: li
     """'' or how the right numbers, which came in another shape on every example, get into theirs."""
     if not all(a.parts for a in attempts):
         return ""
+    answers = [a.parts for a in attempts]
+    if all(e.agrees(parts[::-1]) for e, parts in zip(examples, answers, strict=True)):
+        return ". The results stand in another order"
+    unfit = {k for parts in answers for k, shape in enumerate(exercise.shapes) if not fits(parts[k], shape)}
     for text, change in RESHAPED:
         try:
-            if all(e.agrees(change(a.parts)) for e, a in zip(examples, attempts, strict=True)):
-                return f". {text}"
+            changed = [tuple(change(p) if k in unfit else p for k, p in enumerate(a)) for a in answers]
         except ValueError:  # the shapes do not fit like this either
             continue
+        if all(map(Example.agrees, examples, changed)):
+            return f". {text}"
     return ""
 
 
@@ -219,6 +228,19 @@ def _right(examples: list[Example], attempts: list[Attempt], allowed: tuple[str,
     return Verdict("right", f"right on {len(examples)} examples", step="right")
 
 
+def _rounded(exercise: Exercise, examples: list[Example], answers: list[Parts]) -> bool:
+    """Within the tolerance, but with at most eight digits behind the point, where right ones have more."""
+    if "any_solution" in exercise.kinds:
+        return False
+    mine = np.concatenate([part.ravel() for parts in answers for part in parts])
+    right = np.concatenate([part.ravel() for example in examples for part in example.right])
+    return any(
+        np.allclose(mine, np.round(mine, digits), rtol=0, atol=1e-13)
+        and not np.allclose(right, np.round(right, digits), rtol=0, atol=1e-10)
+        for digits in range(9)
+    )
+
+
 def _named(exercise: Exercise, examples: list[Example], answers: list[Parts]):
     """A mistake is recognised by all examples at once: on some of them it may happen to be right.
 
@@ -245,6 +267,23 @@ def _rows(exercise: Exercise, parts: Parts) -> Parts:
 
 
 # ---- 4 and 5: with the code
+
+
+def _remembers(exercise: Exercise, function: Callable, examples: list[Example], attempts: list) -> str:
+    """'' or that a second call with the same arguments gives another answer than the first."""
+    first = next((k for k, tried in enumerate(attempts) if tried.parts), None)
+    if first is None:
+        return ""
+    again = call(exercise, function, examples[first].arguments)
+    alike = len(again.parts) == len(attempts[first].parts) and all(
+        map(partial(np.array_equal, equal_nan=True), again.parts, attempts[first].parts)
+    )
+    if alike:
+        return ""
+    return (
+        "called twice with the same arguments, it gives two answers: something outlives the call, such as a"
+        " list or an array made outside the function, or in its `def` line"
+    )
 
 
 def _ignored(exercise: Exercise, function: Callable) -> str:

@@ -235,6 +235,41 @@ def a_cell_that_became_text(notebook):
     return cell_of_fk(notebook, cell_type="markdown")
 
 
+@kind(FULL)
+def letters_of_windows(notebook):
+    """An editor saved it as UTF-16."""
+    return json.dumps(notebook).encode("utf-16")
+
+
+def module_kind(name, points, magic, feedback=""):
+    """fk stands in a module that a cell writes; the cell below it imports fk."""
+
+    def make(notebook):
+        own = notebook["cells"][k := position(notebook, "def fk")]["source"]
+        cells = [code(f"{magic}\nimport numpy as np\n\n\n{own}"), code("from mine import fk")]
+        return {**notebook, "cells": [*notebook["cells"][:k], *cells, *notebook["cells"][k + 1 :]]}
+
+    KINDS[name] = Kind(make, points, feedback)
+
+
+module_kind("a_module_of_ones_own", FULL, "%%writefile mine.py")
+module_kind(
+    "a_module_elsewhere", NO_FK, "%%writefile there/mine.py", "begins with %%writefile: take that line"
+)
+
+
+@kind(FULL)
+def a_cell_that_awaits(notebook):
+    """JupyterLab runs it; plain Python does not."""
+    source = notebook["cells"][position(notebook, "def fk")]["source"]
+    return cell_of_fk(notebook, source=f"import asyncio\n\nawait asyncio.sleep(0)\n\n\n{source}")
+
+
+@kind(NO_FK, "the line `fk = fk(")
+def a_value_with_the_name_of_the_function(notebook):
+    return with_cell(notebook, "fk = fk(np.array([0.1, 0.2]), 1, 1)")
+
+
 # ---- not a notebook, or nothing in it
 
 
@@ -254,7 +289,7 @@ def bytes_kind(name, data: bytes, feedback="not a readable notebook"):
 
 bytes_kind("empty_file", b"")
 bytes_kind("not_json", b"{'cells': [")
-bytes_kind("not_utf8", json.dumps({"cells": []}).encode("utf-16"))
+bytes_kind("not_utf8", b'{"cells": ["\xa7"]}', "its letters are not UTF-8")
 bytes_kind("a_list", b"[1, 2]")
 bytes_kind("cells_of_nonsense", b'{"cells": [1, null, {"cell_type": "code"}]}')
 bytes_kind("nested_too_deep", b"[" * 200_000)

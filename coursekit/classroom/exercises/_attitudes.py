@@ -71,6 +71,11 @@ def nearly_half_a_turn(rng):
     return turn(direction(rng), np.pi - 1e-7)
 
 
+def very_nearly_half_a_turn(rng):
+    """So near that the arcsine of |(x, y, z)| takes it for half a turn."""
+    return turn(direction(rng), np.pi - 2e-8)
+
+
 def right_angles(rng):
     """Every axis on another one: a third of a turn, w = x = y = z."""
     return ([[0, 0, 1], [1, 0, 0], [0, 1, 0]],)

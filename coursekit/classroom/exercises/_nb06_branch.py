@@ -44,6 +44,14 @@ def _balanced(rng):
     return last, rng.permutation([*others, last + rng.uniform(0.05, 0.12, 4)])
 
 
+def _near_in_one_joint(rng):
+    """Wrong solutions that leave one joint where it is and are far in the others; one is as long as last."""
+    last, step = (rng.uniform(*size, 4) * rng.choice([-1, 1], 4) for size in ((0.5, 1.5), (0.05, 0.12)))
+    others = last + rng.uniform(0.5, 1.4, (4, 4)) * rng.choice([-1, 1], (4, 4))
+    np.fill_diagonal(others, last)
+    return last, rng.permutation([*others, -last, last + step])
+
+
 def _whole(rng):
     """Whole numbers; 3 goes on to 2 pi - 3."""
     return [3, 0, -2], rng.permutation([[-3, 0, -2], [3, 2, 0], [1, 0, -2]])
@@ -92,6 +100,7 @@ NEXT_ON_BRANCH = Exercise(
         Edge("for one joint", _drawn(n=1, k=3, turns=2)),
         Edge("for as many solutions as joints", _drawn(5, 5)),
         Edge("where the differences of a wrong solution cancel", _balanced),
+        Edge("where wrong solutions are near in one joint", _near_in_one_joint, 2),
         Edge("for whole numbers", _whole),
     ),
     residual=_missed,

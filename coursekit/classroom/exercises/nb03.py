@@ -184,9 +184,17 @@ EXERCISES = [
                 "these reach to the front; joint 1 can turn round, the arm then bends backwards over axis 1",
             ),
             Hint("axis_1", "axis 1 points down: a positive theta1 turns from y to x"),
+            Hint(
+                "axis_1_throughout",
+                "axis 1 points down: theta1 and the angle of P in the room have opposite signs",
+            ),
             Hint("turned_up", "axis 1 points down: the turn of joints 1 to 3 begins with Rz(-theta1)"),
             Hint("not_undone", "R_123 has to be undone: its transpose stands before R_sd"),
             Hint("same_r", "bent backwards over axis 1 the arm reaches to -r, not to r"),
+            Hint("r_exchanged", "to the front belongs theta1 with r; -r goes with theta1 + pi"),
+            Hint(
+                "theta3_taken_off", "joints 2 and 3 turn about the same y: the hand turns by theta2 + theta3"
+            ),
             Hint(
                 "no_flip", "joints 4 to 6 have two solutions for each of the four arms: four rows are missing"
             ),

@@ -255,6 +255,7 @@ EXERCISES = [
             Hint("no_a3", "the forearm is not straight: its offset a3 is missing"),
             Hint("lower", "that is the other solution, with the wrist lower"),
             Hint("upwards", "a positive angle turns downwards here; you let it turn upwards"),
+            Hint("swapped_legs", "delta = atan2(b, a): b, the factor of the sine, is a3; a is d4"),
             Hint("sum", "this is theta2 + theta3, the angle of the forearm in the room"),
         ),
     ),
@@ -280,6 +281,7 @@ EXERCISES = [
             Hint("no_a1", "the upper arm begins at a1, not at axis 1"),
             Hint("no_d1", "the shoulder stands at the height d1: subtract it from p_z"),
             Hint("one_sign", "look at the signs of d4 cos(theta_3): they differ in the two rows"),
+            Hint("transposed", "your matrix is transposed: the minus of d4 cos(theta_3) stands lower left"),
             Hint(
                 "front_only",
                 "bent backwards over axis 1 the arm reaches to a negative distance: use theta1, not a length",

@@ -30,13 +30,6 @@ def _unit(f, args, q):
     return bool(abs(np.sum(q * q) - 1) < 1e-9)
 
 
-def _axis_of_a_half_turn(f, args, beta):
-    """At half a turn the axis is no quotient of two zeros; its sign is free."""
-    k = np.array([0.48, -0.6, 0.64])
-    found = np.asarray(f(2 * np.outer(k, k) - np.eye(3)), float)
-    return bool(min(np.abs(found - np.pi * k).max(), np.abs(found + np.pi * k).max()) < 1e-6)
-
-
 def _there_and_back(f, args, R):
     R_0, R_1, t = args
     return bool(np.allclose(f(R_1, R_0, 1 - t), R, atol=1e-6))
@@ -237,6 +230,7 @@ EXERCISES = [
                 " to the first place at or above lower",
             ),
             Hint("turns_down_only", "turns go both ways: below the lower limit a turn has to be added"),
+            Hint("one_turn", "one turn up or down is not always enough: an angle may be several turns away"),
             Hint(
                 "joints_together",
                 "every joint may take its own number of turns; yours turns all joints alike",
@@ -299,6 +293,7 @@ EXERCISES = [
         points=2,
         draw=attitudes.attitude,
         shape=(3,),
+        compare="turn",
         unit="rad",
         samples=3,
         usual="for ordinary angles",
@@ -311,6 +306,9 @@ EXERCISES = [
             Edge("where y is the largest, and negative", attitudes.large_and_negative(1)),
             Edge("where z is the largest, and negative", attitudes.large_and_negative(2)),
             Edge("for nearly half a turn", attitudes.nearly_half_a_turn),
+            Edge("for very nearly half a turn", attitudes.very_nearly_half_a_turn, tol=2e-9),
+            Edge("for half a turn about x", attitudes.half_turn_about(0)),
+            Edge("for half a turn about any line", attitudes.half_turn),
         ),
         residual=residuals.turn_missed,
         hints=(
@@ -327,10 +325,16 @@ EXERCISES = [
             Hint(
                 "not_flipped", "more than half a turn: where w < 0, take the quaternion with the other sign"
             ),
-            Hint("degrees", "the answer is in radians: yours looks like degrees"),
+            Hint("w_alone", "where w < 0, all four numbers change their sign, not w alone"),
+            Hint(
+                "arcsine",
+                "near half a turn the arcsine is flat, and loses half of the digits: arctan2 loses none",
+            ),
+            Hint(
+                "arccosine", "near 0 the arccosine is flat, and loses half of the digits: arctan2 loses none"
+            ),
             Hint("not_divided", "k is a unit vector: divide (x, y, z) by its length"),
         ),
-        laws=(("a half turn has an axis, too, either way round", _axis_of_a_half_turn),),
     ),
     Exercise(
         "slerp(R_0, R_1, t)",

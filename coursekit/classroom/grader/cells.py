@@ -10,26 +10,39 @@ LARGEST = 20_000_000  # bytes of a notebook
 LONGEST = 200_000  # characters of a cell: more takes Python's own reader minutes
 _RUNS_ITS_BODY = ("time", "timeit", "capture", "prun")  # of the magics that stand above a whole cell
 
+# A module that a cell writes, for others to import: the import system has to look into the folder again.
+_MODULE = re.compile(r"%%(?:writefile|file)\s+(-a\s+|--append\s+)?(\w+\.py)\s*")
+_WRITE = "open({!r}, {!r}, encoding='utf-8').write({!r})\n__import__('importlib').invalidate_caches()"
+
 
 class Unreadable(ValueError):
     """No notebook of the kind that JupyterLab writes; the text says what it is."""
 
 
-def sources(data: bytes) -> list[str]:
-    """The code cells' texts; ValueError if this is no notebook. Metadata are not even looked at."""
+def sources(data: bytes) -> tuple[list[str], list[str]]:
+    """Texts of the code cells, and of cells whose text is not run; ValueError if this is no notebook.
+
+    Metadata are not even looked at. UTF-16 is read, too: some editors of Windows save it.
+    """
     if len(data) > LARGEST:
         raise ValueError("the notebook is larger than 20 MB")
     try:
-        notebook = json.loads(data.decode("utf-8-sig"))
+        notebook = json.loads(data)
         if isinstance(notebook, dict) and "worksheets" in notebook and "cells" not in notebook:
             raise Unreadable("a notebook of an old format (nbformat 3): open it in JupyterLab and save it")
         cells = notebook["cells"]
         code = [_text(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
+        others = [_text(cell["source"]) for cell in cells if cell["cell_type"] != "code"]
     except Unreadable:
         raise
+    except UnicodeDecodeError:
+        raise ValueError(
+            "not a readable notebook (its letters are not UTF-8): save it in JupyterLab"
+        ) from None
     except (ValueError, KeyError, TypeError, RecursionError, AttributeError) as error:
         raise ValueError(f"not a readable notebook ({type(error).__name__})") from None
-    return [plain_python(text) for text in code if text.strip()]
+    plain = [plain_python(text) for text in code if text.strip()]
+    return plain, [*others, *(text for text in code if text.startswith("%%"))]
 
 
 def _text(source) -> str:
@@ -45,6 +58,8 @@ def plain_python(text: str) -> str:
     first, _, body = text.partition("\n")
     if first.startswith("%%"):  # a magic for the whole cell
         name = first[2:].split(" ")[0].strip()
+        if file := _MODULE.fullmatch(first):
+            return _WRITE.format(file[2], "a" if file[1] else "w", body)
         return plain_python(f"#\n{body}") if name in _RUNS_ITS_BODY else ""
     if _parses(text):
         return text
@@ -64,19 +79,27 @@ def _parses(text: str) -> bool:
     return True
 
 
-def why_missing(data: bytes, code: list[str], name: str) -> str:
-    """Why a notebook defines no function of this name, as far as its text tells. code: its `sources`."""
+def why_missing(code: list[str], others: list[str], name: str) -> str:
+    """Why a notebook defines no function of this name, by its texts. code, others: its `sources`."""
     begins = re.compile(rf"^[^\S\n]*(async\s+)?def\s+{re.escape(name)}\b", re.MULTILINE)
     for source in filter(begins.search, code):
         try:
             ast.parse(source)
         except SyntaxError as error:
-            return f"the cell with `def {name}` is no Python: line {error.lineno}, {error.msg}"
+            line = f"line {error.lineno}, " if error.lineno else ""
+            return f"the cell with `def {name}` is no Python: {line}{error.msg}"
         except (ValueError, RecursionError, MemoryError):
             continue
-    others = (c for c in json.loads(data.decode("utf-8-sig"))["cells"] if c["cell_type"] != "code")
-    if any(begins.search(_text(cell["source"])) for cell in others):
+    idle = next(filter(begins.search, others), "")
+    if idle.startswith("%%"):
+        magic = idle.split()[0]
+        return f"the cell with `def {name}` begins with {magic}: take that line out, nothing below it was run"
+    if idle:
         return f"the cell with `def {name}` is no code cell (Esc, then Y makes it one): nothing in it was run"
+    takes = re.compile(rf"^({name}\s*=[^=]|del\b.*\b{name}\b)", re.MULTILINE)
+    if taken := next((found for source in code for found in takes.finditer(source)), None):
+        line = taken.string[taken.start() :].partition("\n")[0]
+        return f"in the end `{name}` is no function: the line `{line[:60]}` gives the name to something else"
     return "the notebook defines no such function"
 
 

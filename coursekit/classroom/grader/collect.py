@@ -108,7 +108,7 @@ def _choose(
 def _owner(data: bytes) -> tuple[str, ...]:
     """Whom a release noted in the notebook: asked last, because students can write there."""
     try:
-        whose = mark_of(json.loads(data.decode("utf-8-sig"))).get("student", "")
+        whose = mark_of(json.loads(data)).get("student", "")
     except (ValueError, AttributeError, RecursionError):
         return ()
     return (whose,) if isinstance(whose, str) else ()

@@ -15,7 +15,7 @@ def handed_out(data: bytes, student: str, course: Course) -> tuple[int, list[str
     A notebook from a release for a roster is judged with the arm of the student who hands it in, whoever's
     name stands in it: somebody else's numbers do not fit.
     """
-    mark = mark_of(json.loads(data.decode("utf-8-sig")))
+    mark = mark_of(json.loads(data))
     notes = []
     whose = mark.get("student", "")
     if newer(mark.get("version", ""), course.version):

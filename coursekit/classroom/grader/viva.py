@@ -98,7 +98,7 @@ def _handed_in(folder: Path, student: str, course: Course) -> tuple[list[Written
             continue
         try:
             data = path.read_bytes()
-            sources = cells.sources(data)
+            sources, _ = cells.sources(data)
         except ValueError as error:
             notes.append(f"{path.name}: {error}")
             continue

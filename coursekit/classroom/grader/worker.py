@@ -85,7 +85,7 @@ def grade(job: dict, libraries: _Libraries) -> dict:
     result = {e.name: {"points": 0, "of": e.points, "text": ""} for e in exercises}
     data = base64.b64decode(job["notebook"])
     try:
-        sources = cells.sources(data)
+        sources, others = cells.sources(data)
     except ValueError as error:
         unreadable = {name: {**row, "text": str(error)} for name, row in result.items()}
         return {"exercises": unreadable, "notes": [str(error)]}
@@ -105,7 +105,7 @@ def grade(job: dict, libraries: _Libraries) -> dict:
                 )
             except (BoxLost, ValueError) as error:
                 missing = "no such function" in str(error)
-                why = clean(cells.why_missing(data, sources, exercise.name)) if missing else error
+                why = clean(cells.why_missing(sources, others, exercise.name)) if missing else error
                 row |= {"text": f"no answer: {why}", "kind": "missing" if missing else "lost"}
                 continue
             found = verdict(exercise, examples, attempts)

@@ -42,8 +42,26 @@ def axis_not_flipped(R):
     return 2 * np.arctan2(size, q[0]) * q[1:] / size if size else np.zeros(3)
 
 
-def axis_in_degrees(R):
-    return np.degrees(right.angle_axis(R))
+def _from_the_quaternion(R, angle):
+    """angle(w, size): of the quaternion with w >= 0 and the size of its (x, y, z)."""
+    q = right.quaternion(R)
+    q = -q if q[0] < 0 else q
+    size = np.linalg.norm(q[1:])
+    return 2 * angle(q[0], size) * q[1:] / size if size else np.zeros(3)
+
+
+def axis_by_arcsine(R):
+    return _from_the_quaternion(R, lambda w, size: np.arcsin(min(size, 1)))
+
+
+def axis_by_arccosine(R):
+    return _from_the_quaternion(R, lambda w, size: np.arccos(min(w, 1)))
+
+
+def axis_with_w_alone(R):
+    q = right.quaternion(R)
+    size = np.linalg.norm(q[1:])
+    return 2 * np.arctan2(size, abs(q[0])) * q[1:] / size if size else np.zeros(3)
 
 
 def axis_not_divided(R):
@@ -105,7 +123,9 @@ WRONG = {
         "half_angle": axis_by_half_the_angle,
         "turned_back": axis_turned_back,
         "not_flipped": axis_not_flipped,
-        "degrees": axis_in_degrees,
+        "w_alone": axis_with_w_alone,
+        "arcsine": axis_by_arcsine,
+        "arccosine": axis_by_arccosine,
         "not_divided": axis_not_divided,
     },
     "slerp": {

@@ -47,6 +47,12 @@ def shoulder_without_a3(theta2, lengths):
     return shoulder(theta2, a1, a2, 0, d4)
 
 
+def shoulder_with_swapped_legs(theta2, lengths):
+    a1, a2, a3, d4, _ = lengths
+    reach = np.clip(-(a1 + a2 * np.cos(theta2)) / np.hypot(a3, d4), -1, 1)
+    return np.arctan2(d4, a3) - np.arccos(reach) - theta2
+
+
 def _system(p, theta1, theta3, lengths, sign=1.0):
     """cos(theta_2) and sin(theta_2) of the exam's eq. 5; sign: of the lower left entry."""
     a1, d1, a2, d4 = lengths
@@ -63,6 +69,10 @@ def theta2_without(p, theta1, theta3, lengths, which):
     lengths = np.array(lengths, float)
     lengths[which] = 0
     return right.theta2_system(p, theta1, theta3, lengths)
+
+
+def theta2_transposed(p, theta1, theta3, lengths):  # the other sign of cos(theta_3) does just that
+    return np.arctan2(*_system(p, theta1, np.pi - theta3, lengths)[::-1])
 
 
 def theta2_with_one_sign(p, theta1, theta3, lengths):
@@ -128,6 +138,7 @@ WRONG = {
         "no_a3": shoulder_without_a3,
         "lower": lambda theta2, lengths: shoulder(theta2, *lengths[:4], higher=1),
         "upwards": shoulder_turning_upwards,
+        "swapped_legs": shoulder_with_swapped_legs,
         "sum": lambda theta2, lengths: theta2 + right.shoulder_theta3(theta2, lengths),
     },
     "theta2_system": {
@@ -135,6 +146,7 @@ WRONG = {
         "no_a1": lambda p, theta1, theta3, lengths: theta2_without(p, theta1, theta3, lengths, 0),
         "no_d1": lambda p, theta1, theta3, lengths: theta2_without(p, theta1, theta3, lengths, 1),
         "one_sign": theta2_with_one_sign,
+        "transposed": theta2_transposed,
         "front_only": theta2_to_the_front,
         "divided": theta2_by_a_quotient,
         "one_quadrant": theta2_by_arccos,

@@ -201,6 +201,11 @@ def inside_wrapped_upwards(theta, lower, upper):
     return inside_without_turns(theta % (2 * np.pi), lower, upper)
 
 
+def inside_one_turn(theta, lower, upper):
+    turned = (theta[..., None] + 2 * np.pi * np.array([-1, 0, 1])).swapaxes(0, -1)  # (3, n, m)
+    return ((turned >= lower[:, None]) & (turned <= upper[:, None])).any(axis=0).all(axis=0)
+
+
 def inside_any(theta, lower, upper):
     return np.any(lower + np.mod(theta - lower, 2 * np.pi) <= upper, axis=-1)
 
@@ -302,6 +307,7 @@ WRONG = {
     },
     "inside": {
         "no_turns": inside_without_turns,
+        "one_turn": inside_one_turn,
         "wrapped": inside_wrapped,
         "wrapped_by_mod": inside_wrapped_by_mod,
         "wrapped_upwards": inside_wrapped_upwards,

@@ -12,7 +12,7 @@ import ast
 import itertools
 import warnings
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -178,7 +178,13 @@ class _Search:
             self.chosen = {key: place.variants[k] for key, place in enumerate(group)}
             kind = variant.kind if len(group) == 1 else f"every_{variant.kind}"
             what = variant.what or (places.likeness(group[0].node) if len(group) > 1 else "")
-            yield _Hit(rank, line, kind, what) if self._right(function) else None
+            good = self._right(function)
+            if good and variant.unless is not None:
+                self.chosen = {
+                    key: replace(v, value=v.unless or v.value, unless=None) for key, v in self.chosen.items()
+                }
+                good = not self._right(function)
+            yield _Hit(rank, line, kind, what) if good else None
             if self.left <= 0:
                 break
 

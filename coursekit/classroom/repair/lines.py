@@ -98,7 +98,9 @@ def _edits_of_update(node: ast.AugAssign, function: ast.FunctionDef) -> Iterator
         body = getattr(parent, "body", None)
         if isinstance(body, list) and node in body:
             i = body.index(node)
-            for kind, left, right in (("order", node.value, target), ("in_place", target, node.value)):
+            commutes = isinstance(node.op, ast.Add | ast.Mult)  # then the other order only makes a new array
+            orders = [] if commutes else [("order", node.value, target)]
+            for kind, left, right in (*orders, ("in_place", target, node.value)):
                 value = ast.BinOp(left, node.op, right)
                 new = located(ast.Assign([node.target], value), node)
                 yield LineEdit(kind, node.lineno, _replace(body, i, [new]))

@@ -29,6 +29,7 @@ TEXTS = {
     "degrees": "degrees and radians",
     "absolute": "a size without its sign",
     "copy": "an array that is changed after it was stored: a copy is missing",
+    "sign_of_zero": "`sign` of 0 is 0, neither 1 nor -1",
     "one_minus": "a value and what it lacks to 1",
     "upside_down": "a fraction that stands upside down",
     "millimetres": "metres and millimetres",

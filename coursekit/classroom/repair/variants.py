@@ -27,6 +27,7 @@ class Variant:
     value: Callable[[tuple, dict], Any]
     what: str = ""  # the name in the sentence
     rank: int = 1
+    unless: Callable[[tuple, dict], Any] | None = None  # no finding where this would do as well
 
 
 def variable(name: str) -> Callable:
@@ -198,10 +199,16 @@ def _constant(node: ast.Constant, variables: list[str]) -> Made:
     if isinstance(v, int):  # it may be a size: no large ones
         new = [int(x) if float(x).is_integer() else x for x in new]
     else:
-        new.append(1000 * v)
+        new += [1000 * v, *([1e-12] if 0 < v < 0.1 else [])]  # a tolerance that was too large
     distinct = [x for k, x in enumerate(new) if x != v and x not in new[:k]]
-    variants = [Variant(_kind_of_number(v, x), _give(x), rank=0) for x in distinct]
+    variants = [_number(v, x) for x in distinct]
     return (lambda: [node]), lambda p, _: p[0], variants
+
+
+def _number(old: float, new: float) -> Variant:
+    kind = _kind_of_number(old, new)
+    farther = _give(100 * new if abs(new) > abs(old) else new / 100)
+    return Variant(kind, _give(new), rank=0, unless=farther if kind == "millimetres" else None)
 
 
 def _kind_of_number(old: float, new: float) -> str:
@@ -289,6 +296,8 @@ def _call(node: ast.Call, variables: list[str]) -> Made:
         variants += [variant("keyword", _keyword("axis", new), "axis") for new in _AXES]
     if count == 1 and name not in SIZES and name not in ("len", "zip", "enumerate"):
         variants.append(Variant("call", lambda p, _: p[1], name))
+    if name == "sign":
+        variants.append(Variant("sign_of_zero", lambda p, _: np.where(p[1] < 0, -1.0, 1.0), rank=0))
     quotient = node.args[0] if count == 1 else None
     extra: list[ast.expr] = []
     if name in ("arctan", "atan") and isinstance(quotient, ast.BinOp) and isinstance(quotient.op, ast.Div):

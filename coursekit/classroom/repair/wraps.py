@@ -3,39 +3,47 @@
 from __future__ import annotations
 
 import ast
-import copy
 from collections.abc import Callable, Iterator
 
 import numpy as np
 
 from .variants import Variant, variable
 
-_DONE: tuple[tuple[str, Callable], ...] = (
-    ("sign", lambda x: -x),
-    ("transposed", lambda x: np.swapaxes(x, -1, -2)),
-    ("inverse", np.linalg.inv),
-    ("reversed", lambda x: x[::-1]),
-    ("half", lambda x: x / 2),
-    ("half", lambda x: 2 * x),
-    ("turn", lambda x: x + np.pi),
-    ("turn", lambda x: np.pi - x),
-    ("root", np.sqrt),
-    ("root", lambda x: x * x),
-    ("unit_length", lambda x: x / np.linalg.norm(x)),
-    ("unit_length", lambda x: x / np.linalg.norm(x, axis=-1, keepdims=True)),
-    ("degrees", np.radians),
-    ("degrees", np.degrees),
-    ("absolute", np.abs),
-    ("copy", copy.copy),
-    ("one_minus", lambda x: 1 - x),
-    ("upside_down", lambda x: 1 / x),
-    ("millimetres", lambda x: x / 1000),
-    ("millimetres", lambda x: _millimetres(x)),
-    ("whole_numbers", lambda x: np.asarray(x, float)),
-    ("turn", lambda x: (x + np.pi) % (2 * np.pi) - np.pi),
-    ("halves", lambda x: np.roll(x, 3, axis=0)),
-    ("negative_root", lambda x: np.maximum(x, 0)),
-    ("flipped", lambda x: x[:, ::-1]),
+
+def _millimetres(x):
+    """1000 x, but not of quarter turns: a thousand of them are the angle 0, and no length."""
+    quarters = np.divide(x, np.pi / 2)
+    return x if np.any(quarters) and np.all(quarters == np.rint(quarters)) else 1000 * x
+
+
+# (kind, what is done, what must not do as well). A copy mends what is shared, and then its transpose does so;
+# where any other length would do, neither a unit vector nor millimetres are the matter.
+_DONE: tuple[tuple[str, Callable, Callable | None], ...] = (
+    ("sign", lambda x: -x, None),
+    ("transposed", lambda x: np.swapaxes(x, -1, -2), np.array),
+    ("inverse", np.linalg.inv, np.array),
+    ("reversed", lambda x: x[::-1], None),
+    ("half", lambda x: x / 2, None),
+    ("half", lambda x: 2 * x, None),
+    ("turn", lambda x: x + np.pi, None),
+    ("turn", lambda x: np.pi - x, None),
+    ("root", np.sqrt, None),
+    ("root", lambda x: x * x, None),
+    ("unit_length", lambda x: x / np.linalg.norm(x), lambda x: 1.1 * x),
+    ("unit_length", lambda x: x / np.linalg.norm(x, axis=-1, keepdims=True), lambda x: 1.1 * x),
+    ("degrees", np.radians, None),
+    ("degrees", np.degrees, None),
+    ("absolute", np.abs, None),
+    ("copy", np.array, None),
+    ("one_minus", lambda x: 1 - x, None),
+    ("upside_down", lambda x: 1 / x, None),
+    ("millimetres", lambda x: x / 1000, lambda x: x / 1e5),
+    ("millimetres", _millimetres, lambda x: 1e5 * x),
+    ("whole_numbers", lambda x: np.asarray(x, float), None),
+    ("turn", lambda x: (x + np.pi) % (2 * np.pi) - np.pi, None),
+    ("halves", lambda x: np.roll(x, 3, axis=0), None),
+    ("negative_root", lambda x: np.maximum(x, 0), None),
+    ("flipped", lambda x: x[:, ::-1], None),
 )
 
 _ENTRIES = 3  # the first entries of a vector may be what is missing
@@ -50,18 +58,14 @@ _JOINED: tuple[Callable, ...] = (
 )
 
 
-def _millimetres(x):
-    """1000 x, but not of quarter turns: a thousand of them are the angle 0, and no length."""
-    quarters = np.divide(x, np.pi / 2)
-    return x if np.any(quarters) and np.all(quarters == np.rint(quarters)) else 1000 * x
-
-
 def wraps(ordinary: Callable, variables: list[str], node: ast.expr) -> Iterator[Variant]:
     """Something done to the value of a node, or a variable joined to it."""
     if isinstance(node, ast.List | ast.Tuple):  # -[1, 2] is none
         ordinary = _as_array(ordinary)
-    for kind, do in _DONE:
-        yield Variant(kind, _done(ordinary, do), rank=1 if kind in ("sign", "transposed", "inverse") else 2)
+    for kind, do, control in _DONE:
+        rank = 1 if kind in ("sign", "transposed", "inverse", "copy") else 2
+        unless = _done(ordinary, control) if control else None
+        yield Variant(kind, _done(ordinary, do), rank=rank, unless=unless)
     inside = {n.id for n in ast.walk(node) if isinstance(n, ast.Name)}
     for name in variables:
         itself = isinstance(node, ast.Name) and node.id == name  # x - x and x / x are numbers, no repair
