@@ -18,6 +18,7 @@ import traitlets
 from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
+from coursekit.view.chain import ends_of, hinges
 from coursekit.view.script import Widget
 
 _SHOWN_PER_SI = {"deg": 180 / np.pi, "mm": 1000.0}  # every other unit is shown as it is
@@ -179,12 +180,9 @@ class JointSlider(Slider):
         self.fit_joint(robot, joint, start)
 
     def fit_joint(self, robot: Robot, joint: int, start: float | None = None) -> None:
-        revolute = robot.joint_types[joint] == "revolute"
-        free = np.pi if revolute else 1.0  # where the data sheet has no limit
-        low, high = (float(limit[joint]) for limit in (robot.q_min, robot.q_max))
-        low, high = (low if np.isfinite(low) else -free), (high if np.isfinite(high) else free)
+        low, high = (float(end[joint]) for end in ends_of(robot))
         start = float(robot.home[joint] if start is None else start)
-        self.fit(start, low, high, "deg" if revolute else "mm", limits=(low, high))
+        self.fit(start, low, high, "deg" if hinges(robot)[joint] else "mm", limits=(low, high))
 
 
 class Sliders:

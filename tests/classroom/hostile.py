@@ -314,7 +314,7 @@ fk_kind(
     "wrong on 5 of 8",
     "calls = []",
 )
-KINDS["the_function_is_a_number"] = Kind(lambda nb: with_fk(nb, "fk = 42"), NO_FK, "no such function")
+KINDS["the_function_is_a_number"] = Kind(lambda nb: with_fk(nb, "fk = 42"), NO_FK, "is no function")
 KINDS["the_function_is_gone"] = Kind(lambda nb: with_fk(nb, "x = 1"), NO_FK, "no such function")
 KINDS["takes_no_arguments"] = Kind(lambda nb: with_fk(nb, "def fk():\n    return 1"), NO_FK, "TypeError")
 

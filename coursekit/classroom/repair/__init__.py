@@ -70,6 +70,10 @@ def repair(exercise: Exercise, function: Callable, examples: list, cost: int) ->
 
 
 class _Search:
+    sure = (
+        True  # an edit is no finding where what it must not be mistaken for (`Variant.unless`) does as well
+    )
+
     def __init__(self, exercise: Exercise, function: Callable, examples: list, trials: int) -> None:
         self.exercise, self.examples, self.left = exercise, examples, trials
         self.box = Sandbox(function)
@@ -179,7 +183,7 @@ class _Search:
             kind = variant.kind if len(group) == 1 else f"every_{variant.kind}"
             what = variant.what or (places.likeness(group[0].node) if len(group) > 1 else "")
             good = self._right(function)
-            if good and variant.unless is not None:
+            if good and self.sure and variant.unless is not None:
                 self.chosen = {
                     key: replace(v, value=v.unless or v.value, unless=None) for key, v in self.chosen.items()
                 }

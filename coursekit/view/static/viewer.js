@@ -226,7 +226,8 @@ function makeViewer() {
       onCamera();
       onText();
       onPose();
-      onMotion(Math.max(0, model.get("frame")));
+      const waits = model.get("playing") && model.get("frame") === 0; // the motion came before there was a view
+      onMotion(waits ? null : Math.max(0, model.get("frame")));
       views.add(view);
 
       const changes = { pose: onPose, theta: onPose, moving: onPose, frame: onPose, labels: onLabels, ghosts: onGhosts, camera: onCamera, description: onText,
