@@ -284,14 +284,12 @@ def memory(notebook, executions):
         return resident, notebook.kernel("len(__import__('ipywidgets').widgets.widget._instances)"), heap
 
     session = notebook.page.context.new_cdp_session(notebook.page)
-    run = """() => { const n = window.jupyterapp.shell.currentWidget.content; n.activeCellIndex = 0;
-                     return window.jupyterapp.commands.execute("notebook:run-cell"); }"""
     for _ in range(5):  # what is kept for good is kept after the first few
-        notebook.page.evaluate(run)
+        notebook.run_cell(0)
         notebook.idle()
     before = held()
     for _ in range(executions):
-        notebook.page.evaluate(run)
+        notebook.run_cell(0)
         notebook.idle()
     notebook.wait_view()
     after = held()

@@ -192,6 +192,13 @@ class Notebook:
         )
         self.idle()
 
+    def run_cell(self, index):
+        self.page.evaluate(
+            """(index) => { window.jupyterapp.shell.currentWidget.content.activeCellIndex = index;
+                            return window.jupyterapp.commands.execute("notebook:run-cell"); }""",
+            index,
+        )
+
     def kernel(self, expression):
         """The value of a Python expression in the notebook's kernel (through JSON)."""
         code = f"import json as _json; print(_json.dumps({expression}))"

@@ -148,10 +148,7 @@ def test_running_the_cell_ten_times_leaves_one_panel(explorer):
     browser.send("Debugger.enable")
     browser.on("Debugger.scriptParsed", lambda module: modules.append(module))
     for _ in range(10):
-        explorer.page.evaluate(
-            """() => { const n = window.jupyterapp.shell.currentWidget.content; n.activeCellIndex = 1;
-                       return window.jupyterapp.commands.execute("notebook:run-cell"); }"""
-        )
+        explorer.run_cell(1)
         explorer.idle()
     explorer.wait_view()
     browser.detach()

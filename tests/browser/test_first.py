@@ -23,11 +23,6 @@ LISTEN = """() => {
 }"""
 STORED = """() => window.jupyterapp.shell.currentWidget.content.widgets.at(-1).model.outputs.toJSON()
     .map((output) => output.data?.["image/png"]).find((picture) => picture).replace(/\\s/g, "")"""
-RUN_LAST = """() => {
-    const notebook = window.jupyterapp.shell.currentWidget.content;
-    notebook.activeCellIndex = notebook.widgets.length - 1;
-    window.jupyterapp.commands.execute("notebook:run-cell");
-}"""
 SHOWN = """async () => {
     const bytes = new Uint8Array(await (await covers[1]).arrayBuffer());
     return [covers.length / 2, btoa(String.fromCharCode(...bytes))];
@@ -75,7 +70,7 @@ def test_the_first_stage_of_a_page_is_ready_before_its_view(notebook, lab):
     page.wait_for_function(f"{PAGE}.views.size === 1")
     notebook.kernel("(opened[-1].scene.frame('/ck/late', np.eye(4), 'late'), opened[-1].viewer.sync())[1]")
     page.wait_for_function(f"{PAGE}.views.size === 0")
-    page.evaluate(RUN_LAST)
+    notebook.run_cell(1)
     notebook.wait_view()
     drawn = page.evaluate(
         """() => {

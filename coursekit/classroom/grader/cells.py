@@ -99,7 +99,7 @@ def why_missing(code: list[str], others: list[str], name: str) -> str:
     takes = re.compile(rf"^({name}\s*=[^=]|del\b.*\b{name}\b)", re.MULTILINE)
     if taken := next((found for source in code for found in takes.finditer(source)), None):
         line = taken.string[taken.start() :].partition("\n")[0]
-        return f"in the end `{name}` is no function: the line `{line[:60]}` gives the name to something else"
+        return f"in the end `{name}` is no function: the line `{line[:60]}` takes the name from it"
     return "the notebook defines no such function"
 
 

@@ -184,9 +184,7 @@ class _Search:
             what = variant.what or (places.likeness(group[0].node) if len(group) > 1 else "")
             good = self._right(function)
             if good and self.sure and variant.unless is not None:
-                self.chosen = {
-                    key: replace(v, value=v.unless or v.value, unless=None) for key, v in self.chosen.items()
-                }
+                self.chosen = {key: replace(v, value=v.unless or v.value) for key, v in self.chosen.items()}
                 good = not self._right(function)
             yield _Hit(rank, line, kind, what) if good else None
             if self.left <= 0:

@@ -219,7 +219,7 @@ function makeStage(MeshCat, pane, quality) {
     return levels.find((level) => (cost.get(level) || 0) < QUICK) || levels.at(-1);
   };
   const learn = (level, took) => {
-    if (!shared.cost) { // the page's first frame compiles shaders: another one shows what a frame costs
+    if (!shared.cost) { // until then nothing was drawn: the page's first frame compiles shaders: another one shows what a frame costs
       shared.cost = cost;
       return viewer.set_dirty();
     }
@@ -258,7 +258,6 @@ function makeStage(MeshCat, pane, quality) {
       }
       learn(wanted, performance.now() - begun);
       stage.frames += 1;
-      shared.drawn = true;
       clearTimeout(sharpen);
       if (wanted < 1) sharpen = setTimeout(() => viewer.set_dirty(), 300); // full sharpness once it rests
       for (const act of stage.afterFrame) act(now);

@@ -24,7 +24,7 @@ function makeViewer() {
   async function rehearse(model) {
     const MeshCat = await page().meshcat;
     await pause(0);
-    if (page().drawn || page().views.size || views.size || !commands.size) return;
+    if (page().cost || page().views.size || views.size || !commands.size) return;
     const pane = makePane(), stage = makeStage(MeshCat, pane, model.get("quality"));
     early = { pane, stage };
     sendAll(stage.viewer, commands.values());
@@ -63,7 +63,7 @@ function makeViewer() {
       box.style.height = `${model.get("height")}px`;
       const wait = element("div", { class: "ck-first" }, element("p", { class: "ck-wait" }, "The 3D view is on its way …"));
       box.append(wait);
-      const uncover = page().drawn ? () => wait.remove() : showFirst(model, pane, wait, views, first);
+      const uncover = page().cost ? () => wait.remove() : showFirst(model, pane, wait, views, first);
       first = null;
       el.classList.add("ck-root");
       el.append(box, silence);

@@ -229,7 +229,8 @@ def main() -> None:
     nowhere = os.open(os.devnull, os.O_RDWR)
     for descriptor in (0, 1, 2):
         os.dup2(nowhere, descriptor)
-    sys.path[:] = [LIBRARY, *sys.argv[2:], *sys.path, os.environ["HOME"]]  # last: modules that cells write
+    sys.path[:0] = [LIBRARY, *sys.argv[2:]]
+    sys.path.append(os.environ["HOME"])  # last: modules that cells write
     released = sys.argv[1] == "released"
     kernel = os.path.join(os.environ["HOME"], "kernel")
     os.makedirs(kernel, exist_ok=True)
