@@ -1,4 +1,4 @@
-"""The page's side of all widgets: one script and one style sheet, which a page gets once.
+"""The page's side of all widgets: one script, one style sheet and meshcat's bundle, which a page gets once.
 
 A browser never lets go of a module, and anywidget makes one of each widget's own script: these are a few
 lines (static/stub.js), which wait for what the widget `Script` brings.
@@ -10,6 +10,8 @@ from pathlib import Path
 import anywidget
 import ipywidgets
 import traitlets
+
+from coursekit.view import meshcat
 
 STATIC = Path(__file__).parent / "static"
 SCRIPTS = ["html", "numbers", "parts", "controls", "bundle", "stage", "actors", "player"]
@@ -26,10 +28,18 @@ KEY = f"coursekit.{hashlib.sha256(SCRIPT.encode()).hexdigest()}"  # a page may h
 
 
 class Script(anywidget.AnyWidget):
-    """What brings script and style sheet to the page."""
+    """What brings script and style sheet to the page, and what draws there: never as state, which is stored."""
 
     _esm = SCRIPT.replace("@key@", KEY)
     _css = read("viewer.css", "controls.css")
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.on_msg(self._send_bundle)
+        self._send_bundle()  # at once: the page must not wait until a busy kernel answers
+
+    def _send_bundle(self, *_asked):
+        self.send({"type": "bundle"}, buffers=[meshcat.bundle()])
 
 
 class Widget(anywidget.AnyWidget):

@@ -47,7 +47,6 @@ class Viewer(Widget):
     """
 
     kind = traitlets.Unicode("viewer").tag(sync=True)
-    _bundle_was_sent = False  # by any Viewer of this kernel
 
     commands = traitlets.Dict().tag(sync=True, to_json=lambda _value, viewer: dict(viewer.messages.packed))
     labels: traitlets.List = traitlets.List().tag(sync=True)
@@ -89,9 +88,6 @@ class Viewer(Widget):
         self._count = itertools.count(1)
         super().__init__(height=height, quality=quality, **self._state(scene))
         self.on_msg(self._answer)
-        if not Viewer._bundle_was_sent:  # at once: the page must not wait until a busy kernel answers
-            Viewer._bundle_was_sent = True
-            self.send({"type": "bundle"}, buffers=[meshcat.bundle()])
 
     def sync(self, scene: Scene | None = None, frame: int | None = None) -> None:
         """Send what changed in the scene since the last call, and nothing else.
@@ -262,9 +258,7 @@ class Viewer(Widget):
         return transforms
 
     def _answer(self, _widget, content, _buffers):
-        if content.get("type") == "need_bundle":
-            self.send({"type": "bundle"}, buffers=[meshcat.bundle()])
-        elif content.get("type") == "need_png":
+        if content.get("type") == "need_png":
             size = int(content.get("width", 640)), int(content.get("height", 420))
             with self._lock:
                 if self.scene is not None:  # closed meanwhile

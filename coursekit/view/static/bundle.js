@@ -1,5 +1,5 @@
 // meshcat's own viewer (its main.min.js), evaluated once per page and shared by every view on it.
-// It arrives gzipped in a custom message of whichever Viewer model comes first, never in widget state.
+// It arrives gzipped in a custom message, never in widget state.
 
 // What all views of this browser page share. A symbol on globalThis, since two versions of this script may be in it.
 function page() {

@@ -8,7 +8,6 @@ function makeViewer() {
 
   // From the kernel: commands that are new or changed, and keys that are gone.
   function update(content, buffers) {
-    if (content.type === "bundle") return receiveBundle(buffers[0]);
     if (content.type === "commands") {
       content.gone.forEach((key) => commands.delete(key));
       content.keys.forEach((key, i) => commands.set(key, bytesOf(buffers[i]).slice()));
@@ -42,7 +41,6 @@ function makeViewer() {
       for (const [key, data] of Object.entries(model.get("commands"))) commands.set(key, bytesOf(data));
       model.on("msg:custom", (content, buffers) => update(content, buffers));
       model.on("change:quality", dropEarly);
-      askForBundle(model);
       rehearse(model).catch(() => {}); // a view will say what is wrong
       return () => {
         dropEarly();
