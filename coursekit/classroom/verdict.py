@@ -281,8 +281,8 @@ def _remembers(exercise: Exercise, function: Callable, examples: list[Example], 
     if alike:
         return ""
     return (
-        "called twice with the same arguments, it gives two answers: something outlives the call, such as a"
-        " list or an array made outside the function, or in its `def` line"
+        "called twice with the same arguments, it gives two answers: it draws random numbers, or something"
+        " outlives the call, such as a list or an array made outside the function, or in its `def` line"
     )
 
 
