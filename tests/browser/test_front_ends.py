@@ -1,16 +1,19 @@
-"""One explorer each where most students are not: Notebook 7, Firefox, WebKit (the engine of Safari)."""
+"""One explorer each where most students are not: Notebook 7, Firefox, WebKit (Safari's engine), Voila."""
 
 import contextlib
 import os
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from coursekit import robots
+from coursekit.classroom.lab import private_folders
 from tests.browser.drivers import Firefox, WebKit
 from tests.browser.explorer import IMPORT, SHOW
-from tests.browser.lab import Notebook
+from tests.browser.lab import Notebook, Server, free_port
+from tests.needs import needed
 
 pytestmark = pytest.mark.browser
 
@@ -24,8 +27,7 @@ ORANGE = """() => {
     }
     return count / (data.length / 4);
 }"""
-
-
+SAID = "(words) => document.querySelector('.ck-control .ck-text').innerText.includes(words)"
 DRAWN_ANEW = "(old) => document.querySelector('.ck-viewer canvas').toDataURL() !== old"
 
 
@@ -34,6 +36,22 @@ def chromium(request, folder):
     context = request.getfixturevalue("browser").new_context(viewport={"width": 1280, "height": 900})
     yield context.new_page()
     context.close()
+
+
+def assert_a_slider_moves_the_arm_and_the_words(notebook):
+    """Ten degrees more at the first: the page moves the arm, the kernel writes the words; gives theta."""
+    page, kr6 = notebook.page, robots.kuka_kr6()
+    assert page.evaluate(ORANGE) > 0.01  # the arm is in the picture
+    before = notebook.pixels()
+    page.focus("[role=slider]")
+    page.keyboard.press("PageUp")
+    theta = kr6.home + np.radians([10, 0, 0, 0, 0, 0])
+    tool = kr6.fk(theta)
+    np.testing.assert_allclose(notebook.wait_transform("/ck/robot/6/tool", tool), tool, atol=1e-9)
+    page.wait_for_function(SAID, arg=f"x = {1000 * tool[0, 3]:9.3f}", timeout=30_000)
+    page.wait_for_function(DRAWN_ANEW, arg=before, timeout=30_000)
+    assert page.evaluate(ORANGE) > 0.01
+    return theta
 
 
 @pytest.mark.parametrize(
@@ -50,21 +68,27 @@ def test_a_slider_moves_the_arm_and_the_words(where, driver, lab, request, tmp_p
         others = list(notebook.errors)  # of the page itself, before anything of the course ran in it
         notebook.run_all()
         notebook.wait_view()
-        assert page.evaluate(ORANGE) > 0.01  # the arm is in the picture
-        before = notebook.pixels()
-
-        page.focus("[role=slider]")
-        page.keyboard.press("PageUp")
+        theta = assert_a_slider_moves_the_arm_and_the_words(notebook)
         notebook.settle()
-        kr6 = robots.kuka_kr6()
-        theta = kr6.home + np.radians([10, 0, 0, 0, 0, 0])
         np.testing.assert_allclose(notebook.kernel("panel.values['theta'].tolist()"), theta, atol=1e-9)
-        tool = kr6.fk(theta)
-        np.testing.assert_allclose(notebook.wait_transform("/ck/robot/6/tool", tool), tool, atol=1e-9)
-        assert f"x = {1000 * tool[0, 3]:9.3f}" in page.inner_text(".ck-control .ck-text")
-        page.wait_for_function(DRAWN_ANEW, arg=before, timeout=30_000)
-        assert page.evaluate(ORANGE) > 0.01
         if folder := os.environ.get("COURSEKIT_SCREENSHOTS"):
             notebook.screenshot(Path(folder) / f"{name}.png")
         assert notebook.errors == others
         assert not driver or page.errors() == []
+
+
+def test_in_voila_a_slider_moves_the_arm_and_the_words(lab, request, tmp_path):
+    needed("voila")
+    url = f"http://127.0.0.1:{free_port()}"
+    command = [sys.executable, "-m", "voila", str(lab.notebooks / lab.write("voila.ipynb", IMPORT, SHOW))]
+    command += ["--no-browser", "--Voila.ip=127.0.0.1", f"--port={url.rpartition(':')[2]}"]
+    # not asked for the page itself until a person does: each time it is, all cells run
+    server = Server("voila", f"{url}/voila/static/voila.js", command, tmp_path, private_folders(tmp_path))
+    with contextlib.closing(server), chromium(request, tmp_path) as page:
+        thrown = []
+        page.on("pageerror", lambda error: thrown.append(str(error)))
+        notebook = Notebook(lab, page)
+        page.goto(url, wait_until="domcontentloaded", timeout=60_000)
+        notebook.wait_view()
+        assert_a_slider_moves_the_arm_and_the_words(notebook)
+        assert thrown == []
