@@ -28,7 +28,7 @@ KEY = f"coursekit.{hashlib.sha256(SCRIPT.encode()).hexdigest()}"  # a page may h
 
 
 class Script(anywidget.AnyWidget):
-    """What brings script and style sheet to the page, and what draws there: never as state, which is stored."""
+    """What brings script, style sheet and bundle to the page: never as state, which is stored."""
 
     _esm = SCRIPT.replace("@key@", KEY)
     _css = read("viewer.css", "controls.css")

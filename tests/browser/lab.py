@@ -240,7 +240,7 @@ class Notebook:
                  const views = [...document.querySelectorAll(".ck-viewer")].map((b) =>
                    [b.isConnected, b.clientWidth, b.clientHeight, b.coursekit?.stage.frames, b.innerText]);
                  const { asked, evaluated, busy } = globalThis[Symbol.for("coursekit.page.1")] || {};
-                 const cells = window.jupyterapp?.shell.currentWidget?.content?.widgets || []; // none in Voila
+                 const cells = window.jupyterapp?.shell.currentWidget?.content?.widgets || [];
                  const outputs = cells.flatMap((c) => (c.model.outputs ? c.model.outputs.toJSON() : []));
                  return JSON.stringify({ views, asked, evaluated, busy }) + "\\n"
                         + outputs.map((o) => o.evalue || JSON.stringify(o).slice(0, 300)).join("\\n");

@@ -201,7 +201,9 @@ def test_the_page_may_ask_for_the_script_and_for_a_picture(viewer, monkeypatch):
     viewer._answer(viewer, {"type": "need_png", "width": 320, "height": 200}, [])
     ((content, (picture,)),) = viewer.sent
     assert content["type"] == "png"
-    monkeypatch.setattr(viewer.script, "send", lambda content, buffers: viewer.sent.append((content, buffers)))
+    monkeypatch.setattr(
+        viewer.script, "send", lambda content, buffers: viewer.sent.append((content, buffers))
+    )
     viewer.script._handle_custom_msg({"type": "need_bundle"}, [])
     content, (script,) = viewer.sent[-1]
     assert content["type"] == "bundle"
