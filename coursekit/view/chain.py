@@ -16,6 +16,7 @@ from coursekit.kinematics.robot import Robot
 
 # radius of the first and of the last joint, as parts of the robot's total length
 THICKEST, THINNEST = 0.078, 0.02
+SHOWN_PER_SI = {"deg": 180 / np.pi, "mm": 1000.0}
 
 
 @dataclass
@@ -90,7 +91,7 @@ def hinges(robot: Robot) -> np.ndarray:
 
 def shown_per_si(robot: Robot) -> np.ndarray:
     """What a radian or a metre of each joint is in degrees or millimetres, in which it is shown: (n,)."""
-    return np.where(hinges(robot), 180 / np.pi, 1000.0)
+    return np.where(hinges(robot), SHOWN_PER_SI["deg"], SHOWN_PER_SI["mm"])
 
 
 def ends_of(robot: Robot) -> tuple[np.ndarray, np.ndarray]:

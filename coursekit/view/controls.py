@@ -18,10 +18,8 @@ import traitlets
 from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
-from coursekit.view.chain import ends_of, hinges
+from coursekit.view.chain import SHOWN_PER_SI, ends_of, hinges
 from coursekit.view.script import Widget
-
-_SHOWN_PER_SI = {"deg": 180 / np.pi, "mm": 1000.0}  # every other unit is shown as it is
 
 
 class Control(Widget):
@@ -119,7 +117,7 @@ class Slider(Control):
         """
         if not low < high:
             raise ValueError(f"slider {self.name!r}: low must be below high, got {low} and {high}")
-        self.shown_per_si = _SHOWN_PER_SI.get(unit, 1.0)
+        self.shown_per_si = SHOWN_PER_SI.get(unit, 1.0)  # every other unit is shown as it is
         low, high = min(low, start), max(high, start)
         step = step or {"deg": 1.0, "mm": 10.0}.get(unit, (high - low) / 100)
         with self.hold_sync():
