@@ -1,17 +1,51 @@
 """A saved notebook of yesterday: its explorers show their picture, and move although no kernel has them."""
 
+import io
+
 import nbformat
 import numpy as np
 import pytest
+from PIL import Image
 
 from coursekit import robots
 from tests.browser.explorer import IMPORT
+from tests.browser.test_explorers import dark_theme
 from tests.browser.test_kinematics import link
 
 pytestmark = pytest.mark.browser
 
 KR6 = robots.kuka_kr6()
 SHUT_DOWN = "() => window.jupyterapp.shell.currentWidget.context.sessionContext.shutdown()"
+
+FIGURES = """import matplotlib.pyplot as plt
+from coursekit.view import figures
+figures.blank((3, 2)).set_xlabel("width")
+figures.show()
+plt.figure(figsize=(1, 1), facecolor="#004000").subplots()  # made for the dark
+plt.show()"""
+
+
+def corner(picture):
+    """Color of a picture's first pixel, as the page shows it."""
+    picture.scroll_into_view_if_needed()
+    shown = Image.open(io.BytesIO(picture.screenshot())).convert("RGB")
+    return np.array(shown.getpixel((3, 3)))
+
+
+def the_pictures_have_words_and_the_pages_ground(notebook):
+    page = notebook.page
+    own, other = (page.locator(".jp-OutputArea .jp-RenderedImage img").nth(k) for k in range(2))
+    page.evaluate("() => window.jupyterapp.shell.currentWidget.content.scrollToItem(2, 'start')")
+    page.wait_for_function("() => document.querySelectorAll('.jp-RenderedImage img[alt]').length === 2")
+    assert own.get_attribute("alt").startswith("y, 0 to 1, over width, 0 to 1")
+    assert other.get_attribute("alt") == "<Figure size 100x100 with 1 Axes>"
+    assert tuple(corner(own)) == (255, 255, 255)
+    with dark_theme(notebook):
+        paper = page.locator(".jp-Notebook").first.evaluate("e => getComputedStyle(e).backgroundColor")
+        ground = [int(number) for number in paper.strip("rgb()").split(",")]
+        assert abs(corner(own) - ground).max() <= 2
+        np.testing.assert_array_equal(corner(other), [0, 64, 0])
+        page.frame_locator(".ck-saved iframe").locator("body[data-jp-theme-light=false]").wait_for()
 
 
 def moves(page):
@@ -28,7 +62,7 @@ def moves(page):
 
 
 def test_the_next_day_its_kernel_gone(notebook, lab):
-    notebook.open(lab.write("yesterday.ipynb", IMPORT, "view.explore(robots.kuka_kr6())"))
+    notebook.open(lab.write("yesterday.ipynb", IMPORT, "view.explore(robots.kuka_kr6())", FIGURES))
     notebook.run_all()
     notebook.wait_view()
     notebook.save()
@@ -38,6 +72,7 @@ def test_the_next_day_its_kernel_gone(notebook, lab):
     page.wait_for_selector(".ck-saved img, .ck-saved iframe")
     assert not page.get_by_text("model not found").first.is_visible()
     moves(page)
+    the_pictures_have_words_and_the_pages_ground(notebook)
     notebook.run_all()  # and the cell brings all of it back
     notebook.wait_view()
     assert page.locator(".ck-saved").count() == 0
