@@ -39,6 +39,7 @@ class Arm(Drawing):
     """The handle of a robot: where it stands (`theta`), its looks, the paths of its links."""
 
     color: str | int = "ghost"  # of a ghost
+    columns: str = ""  # path of n arrows: how fast each joint moves the tool, which the page places, too
     links: np.ndarray | None = None  # (n, 4, 4): where a ghost's links stand, if not where its joints say
 
     def __init__(self, scene: Scene, name: str, robot: Robot, style: str, source: str) -> None:

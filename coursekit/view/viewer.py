@@ -128,6 +128,7 @@ class Viewer(Widget):
         robot = arm.robot
         self.drive = {
             "path": arm.path,
+            "columns": arm.columns,
             "name": robot.name,
             "screws": robot.S.T.tolist(),
             "M": robot.M.T.ravel().tolist(),

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from coursekit import robots, view
+from coursekit.view.explorers.jacobians import arrow_at
 from tests.browser.test_pointing import SEEN
 
 pytestmark = pytest.mark.browser
@@ -123,7 +124,9 @@ def test_a_page_without_a_kernel_follows_its_sliders(offline, name):
 
 
 def test_the_formula_of_a_page_points_into_its_picture(offline):
-    page = offline(view.explore_jacobians())
+    panel = view.explore_jacobians()
+    robot, start = panel.scene.robots["robot"].robot, panel.scene.robots["robot"].theta
+    page = offline(panel)
     paths = ["/ck/robot/3/theta", "/ck/columns/3"]
     third = page.locator(".ck-part").nth(2)
     assert page.evaluate(SEEN, paths) == []
@@ -136,10 +139,12 @@ def test_the_formula_of_a_page_points_into_its_picture(offline):
 
     page.locator("[role=slider]").first.press(
         "PageUp"
-    )  # the column is another one now, and no kernel knows it
+    )  # no kernel knows it: the page places the arrow itself
     third.focus()
-    page.wait_for_timeout(500)
-    assert page.evaluate(SEEN, paths) == paths[:1]
+    theta = start + np.radians(10) * np.eye(robot.n)[0]
+    column = robot.jacobian_geometric(theta)[3:, 2]
+    assert_link_comes_to(page, paths[1], arrow_at(column, robot.fk(theta)[:3, 3]))
+    assert page.evaluate(SEEN, paths) == paths
     assert meaning.inner_text().startswith("in the pose that was saved: column 3: joint 3 at ")
 
 

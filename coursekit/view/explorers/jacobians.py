@@ -24,6 +24,7 @@ STEPS = 50
 SCALE = {"linear": 0.3, "angular": 0.1}  # on a stage of 1 m
 UNIT = {"linear": "m/s", "angular": "rad/s"}
 COLOR = {"linear": "trace", "angular": "axis"}
+ASIDE = (0.48, 0.6, 0.64)  # where the x axis of an arrow leans: no joint moves the tool just there
 CAPTION = (
     "How far the joints turn in each step towards {d}: Newton (circles) leaps where the arm is nearly "
     "singular, damped least squares (squares) does not. Click to see the arm after a step."
@@ -72,7 +73,7 @@ class _Jacobians(yours.Jacobians, Explorer):
     """The ellipsoids of the arm as it stands; Newton and damped least squares from there to the target."""
 
     name, title, opener = "jacobians", "Explorer of Jacobian methods", "explore_jacobians"
-    computed = ("/ck/linear", "/ck/angular", "/ck/columns")
+    computed = ("/ck/linear", "/ck/angular")
 
     def __init__(self, robot, poses, mine):
         super().__init__(mine, robot)
@@ -93,6 +94,10 @@ class _Jacobians(yours.Jacobians, Explorer):
         self.goal = self.scene.frame("/ck/target", self.target, letter="d", size=0.14 * self.scene.size)
         # metres drawn for 1 m/s and for 1 rad/s; rounded, so that the text is exact
         self.scale = {part: round(scale * self.scene.size, 2) for part, scale in SCALE.items()}
+        self.arm.columns, size = "/ck/columns", self.scale["linear"]
+        for k in range(1, robot.n + 1):  # arrows of one shape that are placed and stretched
+            look = pointing.COLOR, f"v{k}", 0.03 * size
+            pointing.mean(self.scene.arrow(f"/ck/columns/{k}", np.zeros(3), [0, 0, size], *look), f"J{k}")
 
     def start_at(self, theta):
         super().start_at(theta)
@@ -131,33 +136,17 @@ class _Jacobians(yours.Jacobians, Explorer):
         if self.frame is None or not self.playing:
             self.start = self.arm.theta
         self.draw(self.arm.theta)
-        for part, drawn in self.ellipsoids.items():
-            drawn.show(values[part])
+        for part in SCALE:
+            self.scene[f"/ck/{part}"].show(values[part])
 
     def draw(self, theta):
-        """Both ellipsoids at the tool."""
+        """Both ellipsoids at the tool, and how far each joint alone moves it, to the same scale."""
         J, tool = self.robot.jacobian_geometric(theta), self.robot.fk(theta)[:3, 3]
-        found = {part: jacobians.ellipsoid(J, part) for part in SCALE}
-        self.ellipsoids = {
-            part: self.scene.ellipsoid(f"/ck/{part}", e.axes, self.scale[part] * e.lengths, tool, COLOR[part])
-            for part, e in found.items()
-        }
-
-        for k, v in enumerate(J[3:].T, 1):  # columns, as arrows of one shape that are placed and stretched
-            self.column(k, v, tool)
-
-    def column(self, k, v, tool):
-        """How far joint k alone moves the tool, as long as the ellipsoid says."""
-        path, size = f"/ck/columns/{k}", self.scale["linear"]
-        if path not in self.scene.parts:
-            pointing.mean(
-                self.scene.arrow(path, np.zeros(3), [0, 0, size], pointing.COLOR, f"v{k}", 0.03 * size),
-                f"J{k}",
-            )
-        T = frame_along(v, tool) if np.linalg.norm(v) > 1e-9 else np.eye(4)
-        long = max(np.linalg.norm(v), 1e-6)
-        T[:3, :3] *= [np.sqrt(long), np.sqrt(long), long]  # a short one is not thin as a hair
-        self.scene[path].move(T)
+        for part, scale in self.scale.items():
+            e = jacobians.ellipsoid(J, part)
+            self.scene.ellipsoid(f"/ck/{part}", e.axes, scale * e.lengths, tool, COLOR[part])
+        for k, v in enumerate(J[3:].T, 1):
+            self.scene[f"{self.arm.columns}/{k}"].move(arrow_at(v, tool))
 
     def formula(self, values):
         """The columns of the Jacobian."""
@@ -273,6 +262,15 @@ class _Jacobians(yours.Jacobians, Explorer):
             if self.frame is None or self.playing != name:
                 self.play(name, autoplay=False)
             self.panel.rest_at(round(x))
+
+
+def arrow_at(v: ArrayLike, tool: ArrayLike) -> np.ndarray:
+    """Where the arrow of a velocity (3,) stands at a point (3,), (4, 4); the page does the same by itself."""
+    speed = float(np.linalg.norm(v))
+    long = max(speed, 1e-6)
+    T = frame_along(v if speed > 1e-6 else (0, 0, 1), tool, ASIDE)
+    T[:3, :3] *= [np.sqrt(long), np.sqrt(long), long]  # a short one is not thin as a hair
+    return T
 
 
 def _lengths_of(found):

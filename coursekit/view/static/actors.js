@@ -13,10 +13,7 @@ function makeLabels(THREE, viewer, pane, renderer) {
   pane.append(layer);
   const point = new THREE.Vector3(), views = pane.parentElement.querySelector(".ck-views");
   let labels = [];
-  const visible = (object) => {
-    for (let o = object; o; o = o.parent) if (!o.visible) return false;
-    return true;
-  };
+  const visible = (object) => !object || (object.visible && visible(object.parent));
   return {
     set(list) {
       labels = list.map(({ path, pos, text, cls }) => {
@@ -117,9 +114,7 @@ function makeCamera(THREE, viewer, pane) {
   };
   return {
     lens({ size, fov }) {
-      camera.fov = fov;
-      camera.near = 0.02 * size;
-      camera.far = 30 * size;
+      Object.assign(camera, { fov, near: 0.02 * size, far: 30 * size });
     },
     show(where) {
       shown = where;

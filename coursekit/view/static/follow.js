@@ -35,10 +35,11 @@ function makeFollower(model, moved) {
       const known = model.get("theta");
       if (ahead && theta().every((q, k) => Math.abs(q - known[k]) < 1e-9)) ahead = false;
     },
-    // paths of the links, and 16 numbers for each
+    // paths of the links, and of the arrows that go along; 16 numbers for each
     pose() {
-      const { path, screws } = model.get("drive");
-      return [screws.map((_, k) => [...splitPath(path), String(k + 1)]), new Float64Array(displacements(screws, theta()).flat())];
+      const arm = model.get("drive"), D = displacements(arm.screws, theta()), arrows = arm.columns ? arrowsOf(arm, D) : [];
+      const below = (path, all) => all.map((_, k) => [...splitPath(path), String(k + 1)]);
+      return [[...below(arm.path, D), ...below(arm.columns, arrows)], new Float64Array([D, arrows].flat(2))];
     },
     // the sliders go where a motion is, in pages where no kernel puts them there
     put(values) {

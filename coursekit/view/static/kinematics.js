@@ -22,18 +22,14 @@ export function exponential([wx, wy, wz, vx, vy, vz], q) {
 /** The product of two transforms, column by column. @param {ArrayLike<number>} A @param {ArrayLike<number>} B */
 export function product(A, B) {
   const C = new Array(16);
-  for (let column = 0; column < 16; column += 4) {
-    for (let row = 0; row < 4; row += 1) {
-      C[column + row] = A[row] * B[column] + A[4 + row] * B[column + 1] + A[8 + row] * B[column + 2] + A[12 + row] * B[column + 3];
-    }
+  for (let i = 0; i < 16; i += 1) {
+    const row = i % 4, column = i - row;
+    C[i] = A[row] * B[column] + A[4 + row] * B[column + 1] + A[8 + row] * B[column + 2] + A[12 + row] * B[column + 3];
   }
   return C;
 }
 
-/**
- * Where the links went from where they stand at zero: e^[S1]q1 ... e^[Sk]qk for k = 1..n, 16 numbers each.
- * @param {number[][]} screws n screws @param {number[]} theta n joint values
- */
+/** Where the links went: e^[S1]q1 ... e^[Sk]qk, k = 1..n, 16 numbers each. @param {number[][]} screws @param {number[]} theta */
 export function displacements(screws, theta) {
   let T = null;
   return screws.map((S, k) => (T = T ? product(T, exponential(S, theta[k])) : exponential(S, theta[k])));
@@ -58,10 +54,7 @@ export function describe({ name, screws, M }, theta) {
   return `${name}: joints ${joints}; tool at (${tool.map((x) => round(1000 * x)).join(", ")}) mm`;
 }
 
-/**
- * The pose of a target from what its six sliders say, column by column: x, y, z, then yaw, pitch, roll.
- * @param {number[]} values metres and radians
- */
+/** The pose of a target from its six sliders: x, y, z, yaw, pitch, roll. @param {number[]} values metres and radians */
 export function poseOf([x, y, z, yaw, pitch, roll]) {
   const turn = (axis, angle) => exponential([...axis, 0, 0, 0], angle);
   const R = product(product(turn([0, 0, 1], yaw), turn([0, 1, 0], pitch)), turn([1, 0, 0], roll));
@@ -120,6 +113,17 @@ export function velocityOf(T, S, p) {
   const w = T ? times(T, S.slice(0, 3)) : S.slice(0, 3), v = T ? times(T, S.slice(3)) : S.slice(3);
   const from = T ? p.map((x, i) => x - T[12 + i]) : p;
   return crossed(w, from).map((x, i) => x + v[i]);
+}
+
+/** Where the arrows of J's columns stand, as arrow_at in Python. @param {{screws: number[][], M: number[]}} arm @param {number[][]} D displacements */
+export function arrowsOf({ screws, M }, D) {
+  const tool = product(D.at(-1), M).slice(12, 15);
+  return screws.map((S, k) => {
+    const v = velocityOf(k ? D[k - 1] : null, S, tool), speed = Math.hypot(...v), long = Math.max(speed, 1e-6);
+    const z = speed > 1e-6 ? v.map((x) => x / speed) : [0, 0, 1], y = crossed(z, [0.48, 0.6, 0.64]);
+    const wide = Math.sqrt(long) / Math.hypot(...y), scaled = (axis, by) => [...axis.map((x) => x * by), 0];
+    return [...scaled(crossed(y, z), wide), ...scaled(y, wide), ...scaled(z, long), ...tool, 1];
+  });
 }
 
 function solve3(A, b) {
