@@ -14,6 +14,13 @@ SEEN = """(paths) => {
     const seen = (object) => !object || (object.visible && seen(object.parent));
     return paths.filter((path) => seen(viewer.scene_tree.find(path.split("/").filter((s) => s)).object));
 }"""
+# Whether a ring that stands where the tool's handle is can be taken hold of.
+RING_ON_TOP = """() => {
+    const [ring, tool] = ["ring.x", "tool"].map((kind) => document.querySelector(`.ck-handle.${kind}`));
+    ring.style.transform = tool.style.transform;
+    const { left, top, width, height } = tool.getBoundingClientRect();
+    return document.elementFromPoint(left + width / 2, top + height / 2) === ring;
+}"""
 LABELS = """() => [...document.querySelectorAll(".ck-label")].filter((l) => l.style.display !== "none")
     .map((l) => l.textContent)"""
 OPACITY = """(path) => {
@@ -99,6 +106,7 @@ def test_columns_of_the_jacobian_are_arrows_at_the_tool(opened):
     T = np.array(explorer.notebook.transform("/ck/columns/4"))
     np.testing.assert_allclose(T[:3, 2], v, atol=1e-9)
     np.testing.assert_allclose(T[:3, 3], panda.fk(theta)[:3, 3], atol=1e-9)
+    assert explorer.page.evaluate(RING_ON_TOP)
 
 
 def test_a_small_figure_chooses_its_solution_and_shows_it(opened):
