@@ -13,6 +13,7 @@ import tempfile
 from importlib import util
 from pathlib import Path
 
+from ..view import script
 from . import compiled, tools, wheels
 
 # JupyterLab's parts that the explorers need, as this environment has them.
@@ -86,6 +87,8 @@ def write(course: Path, pyodide: Path, version: str, title: str, out: Path) -> N
             leave = shutil.ignore_patterns("*.map", "pypi")
             shutil.copytree(tools.extension(name), work / "labextensions" / name, ignore=leave)
         shutil.copytree(STATIC / "lab", work / "labextensions" / "coursekit-site")
+        # the course's own: what was saved stays a picture, as no server makes pages of it
+        shutil.copytree(script.STATIC / "lab", work / "labextensions" / "coursekit")
         _settings(work / "lite", title)
         _build(work, course / "notebooks")
         shutil.move(python, work / "built" / "static" / "pyodide")

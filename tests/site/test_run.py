@@ -112,6 +112,7 @@ def work(browser, run, served, tmp_path_factory):
         told["right"] = (student.run("ex-dh-transform", RIGHT), student.run("check-dh-transform"))[1]
         told["kernels"] = student.kernels()
         told["second"] = (student.run("ex-fk-dh", CHAIN), student.run("check-fk-dh"))[1]
+        student.run("see-explorer")
         student.page.evaluate("() => window.jupyterapp.commands.execute('docmanager:save')")
         student.page.wait_for_function(
             "() => !window.jupyterapp.shell.currentWidget.context.model.dirty", timeout=60_000
@@ -120,6 +121,8 @@ def work(browser, run, served, tmp_path_factory):
         student.page.reload(wait_until="domcontentloaded")
         student.wait()
         told["after reload"] = student.source("ex-dh-transform")
+        picture = student.page.wait_for_selector(".ck-saved img", state="attached")
+        told["picture"] = picture.get_attribute("alt")
         told["zip"] = student.save(tmp_path_factory.mktemp("work"))
         told["bar after"] = student.page.inner_text("#ck-bar")
         told["asked"], told["errors"] = student.asked, student.errors
@@ -181,6 +184,10 @@ def test_what_does_not_work_can_be_read(browser, run, served, width):
 
 def test_what_was_written_is_there_after_a_reload(work):
     assert work["after reload"] == RIGHT
+
+
+def test_an_explorer_is_a_picture_with_its_words_until_its_cell_is_run_again(work):
+    assert work["picture"].startswith("Explorer of DH and PoE: KUKA KR6 R900 sixx: joints (0.0, -90.0")
 
 
 def test_nothing_is_asked_of_another_host(work):
