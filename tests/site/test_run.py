@@ -40,6 +40,10 @@ RUN = """async ([id, source]) => {
   const outputs = notebook.widgets[index].model.outputs.toJSON();
   return outputs.map((one) => one.text || one.evalue || "").join("");
 }"""
+SCROLL = """(id) => { // what is out of sight is made when it comes into sight
+  const { content } = window.jupyterapp.shell.currentWidget;
+  return content.scrollToCell(content.widgets.find((cell) => cell.model.id === id));
+}"""
 SOURCE = """(id) => window.jupyterapp.shell.currentWidget.content.widgets.find((cell) => cell.model.id === id)
                     ?.model.sharedModel.getSource()"""
 
@@ -121,7 +125,8 @@ def work(browser, run, served, tmp_path_factory):
         student.page.reload(wait_until="domcontentloaded")
         student.wait()
         told["after reload"] = student.source("ex-dh-transform")
-        picture = student.page.wait_for_selector(".ck-saved img", state="attached")
+        student.page.evaluate(SCROLL, "see-explorer")
+        picture = student.page.wait_for_selector(".ck-saved img", timeout=60_000)
         told["picture"] = picture.get_attribute("alt")
         told["zip"] = student.save(tmp_path_factory.mktemp("work"))
         told["bar after"] = student.page.inner_text("#ck-bar")

@@ -28,9 +28,12 @@
     }).catch(() => {});
   }
 
-  // Neither a live view nor anything else that is right: the error of a missing model, or (not trusted) the picture alone.
-  const isLost = (node) => /Error displaying widget: model not found/.test(node.textContent)
-    || (node.querySelector("img") && !node.querySelector(".ck-root, .ck-control, .ck-saved"));
+  // Neither a live view nor anything else that is right: the error of a missing model, or (not trusted) the picture alone; or
+  // what it may say for ever, where a kernel came late.
+  const PATIENCE = 5000, since = new WeakMap(); // milliseconds; node -> when it was first seen to load
+  const loads = (node) => /Loading widget\.\.\./.test(node.textContent) && since.set(node, since.get(node) || Date.now());
+  const isLost = (node) => (loads(node) ? Date.now() - since.get(node) >= PATIENCE : /Error displaying widget: model not found/.test(node.textContent)
+    || (node.querySelector("img") && !node.querySelector(".ck-root, .ck-control, .ck-saved")));
 
   function revive(node, data, { baseUrl, token }) {
     const line = textOf(data["text/plain"]);
@@ -76,6 +79,7 @@
         if (picture) tell(picture, words);
         if (!data["image/png"] || !LINE.test(line) || node.nextElementSibling?.matches(".ck-saved")) continue;
         if (isLost(node)) revive(node, data, server);
+        else if (loads(node)) due = due || setTimeout(look, PATIENCE);
       }
     };
     new MutationObserver(() => document.querySelectorAll(".ck-saved iframe").forEach((frame) => {
