@@ -30,7 +30,7 @@ EXPLORERS = {  # title -> function of coursekit.view
     "Explorer of the path": "explore_path",
 }
 _LINE = re.compile(r"(?P<title>Explorer of [^:]+): (?P<name>[^:]+): joints \((?P<joints>[^()]*)\)")
-HINT = "No kernel runs here: sliders move the arm; run the notebook for frames, arrows, numbers and plots."
+HINT = "No kernel runs here: joint sliders, where there are any, move the arm; run the notebook for the rest."
 _ONE_AT_A_TIME = threading.Lock()  # a new explorer closes the one of its name, as when a cell is run again
 
 
