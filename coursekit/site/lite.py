@@ -13,11 +13,16 @@ import tempfile
 from importlib import util
 from pathlib import Path
 
-from ..view import script
 from . import compiled, tools, wheels
 
-# JupyterLab's parts that the explorers need, as this environment has them.
-_EXTENSIONS = ("@jupyter-widgets/jupyterlab-manager", "@jupyterlite/pyodide-kernel-extension", "anywidget")
+# JupyterLab's parts that the explorers need, as this environment has them; by the course's own a saved
+# explorer stays a picture here, as no server makes a page of it.
+_EXTENSIONS = (
+    "@jupyter-widgets/jupyterlab-manager",
+    "@jupyterlite/pyodide-kernel-extension",
+    "anywidget",
+    "coursekit",
+)
 _KERNEL = "@jupyterlite/pyodide-kernel-extension"
 # What is loaded before JupyterLab opens; the rest of it comes, and is kept, when it is used.
 _FIRST = re.compile(
@@ -87,8 +92,6 @@ def write(course: Path, pyodide: Path, version: str, title: str, out: Path) -> N
             leave = shutil.ignore_patterns("*.map", "pypi")
             shutil.copytree(tools.extension(name), work / "labextensions" / name, ignore=leave)
         shutil.copytree(STATIC / "lab", work / "labextensions" / "coursekit-site")
-        # the course's own: what was saved stays a picture, as no server makes pages of it
-        shutil.copytree(script.STATIC / "lab", work / "labextensions" / "coursekit")
         _settings(work / "lite", title)
         _build(work, course / "notebooks")
         shutil.move(python, work / "built" / "static" / "pyodide")

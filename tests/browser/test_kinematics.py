@@ -137,9 +137,7 @@ def test_the_formula_of_a_page_points_into_its_picture(offline):
     page.wait_for_function(f"() => ({UNDER_A_HANDLE})()[0].includes('v3')")  # once a frame is drawn
     assert page.evaluate(UNDER_A_HANDLE)[1] == []  # where the label belongs stands the handle of the tool
 
-    page.locator("[role=slider]").first.press(
-        "PageUp"
-    )  # no kernel knows it: the page places the arrow itself
+    page.locator("[role=slider]").first.press("PageUp")  # no kernel is told: the page places the arrow itself
     third.focus()
     theta = start + np.radians(10) * np.eye(robot.n)[0]
     column = robot.jacobian_geometric(theta)[3:, 2]
