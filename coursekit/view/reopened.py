@@ -30,6 +30,12 @@ EXPLORERS = {  # title -> function of coursekit.view
     "Explorer of the path": "explore_path",
 }
 _LINE = re.compile(r"(?P<title>Explorer of [^:]+): (?P<name>[^:]+): joints \((?P<joints>[^()]*)\)")
+_FITS = """<script>{
+  const frame = document.currentScript.previousElementSibling;
+  addEventListener("message", ({ data, source }) => { // the page says how high it is
+    if (source === frame.contentWindow && data?.coursekit === "height") frame.style.height = `${data.height}px`;
+  });
+}</script>"""
 HINT = "No kernel runs here: joint sliders, where there are any, move the arm; run the notebook for the rest."
 _ONE_AT_A_TIME = threading.Lock()  # a new explorer closes the one of its name, as when a cell is run again
 
@@ -106,4 +112,6 @@ class Exporter(HTMLExporter):
 
 def _frame(page):
     style = "width: 100%; height: 600px; border: 0"
-    return f'<iframe srcdoc="{html.escape(page)}" style="{style}" loading="lazy"></iframe><p>{HINT}</p>'
+    return (
+        f'<iframe srcdoc="{html.escape(page)}" style="{style}" loading="lazy"></iframe>{_FITS}<p>{HINT}</p>'
+    )

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from coursekit import robots
+from coursekit import robots, view
+from coursekit.view.reopened import Exporter
 from tests.browser.explorer import IMPORT
 from tests.browser.test_explorers import dark_theme
 from tests.browser.test_kinematics import link
@@ -62,6 +63,9 @@ def moves(page):
     theta = KR6.home + np.radians([10, 0, 0, 0, 0, 0])
     np.testing.assert_allclose(link(inner, "/ck/robot/6"), KR6.displacements(theta)[-1], atol=1e-12)
     assert "joints (10.0, -90.0" in inner.inner_text("#words")
+    needed = inner.evaluate("() => document.querySelector('main').scrollHeight")
+    page.wait_for_timeout(300)
+    assert 0 <= page.locator(".ck-saved iframe").first.bounding_box()["height"] - needed <= 4
     assert "Run the cell" in page.inner_text(".ck-saved p")
 
 
@@ -109,3 +113,22 @@ def test_an_arm_of_ones_own_keeps_its_picture(notebook, lab):
     assert notebook.page.locator(".ck-saved iframe").count() == 0
     assert "Run the cell" in notebook.page.inner_text(".ck-saved p")
     assert notebook.page.evaluate("() => document.querySelector('.ck-saved img').naturalWidth") == 640
+
+
+def test_a_page_by_nbconvert_moves_and_is_as_high_as_it_needs(browser, tmp_path):
+    panel = view.explore()
+    stored = nbformat.v4.new_output("display_data", {"text/plain": repr(panel)})
+    panel.close()
+    cell = nbformat.v4.new_code_cell("view.explore()", outputs=[stored])
+    written, _ = Exporter().from_notebook_node(nbformat.v4.new_notebook(cells=[cell]))
+    (tmp_path / "page.html").write_text(written, "utf-8")
+    context = browser.new_context(offline=True)
+    page = context.new_page()
+    page.goto((tmp_path / "page.html").as_uri())
+    inner = page.locator("iframe").content_frame
+    inner.locator("[role=slider]").first.press("PageUp", timeout=60_000)
+    inner.get_by_text("joints (10.0, -90.0").wait_for()
+    needed = inner.locator("main").evaluate("main => main.scrollHeight")
+    page.wait_for_timeout(300)
+    assert 0 <= page.locator("iframe").bounding_box()["height"] - needed <= 4
+    context.close()

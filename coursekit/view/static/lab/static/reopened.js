@@ -34,6 +34,7 @@
   const loads = (node) => /Loading widget\.\.\./.test(node.textContent) && since.set(node, since.get(node) || Date.now());
   const isLost = (node) => (loads(node) ? Date.now() - since.get(node) >= PATIENCE : /Error displaying widget: model not found/.test(node.textContent)
     || (node.querySelector("img") && !node.querySelector(".ck-root, .ck-control, .ck-saved")));
+  const frames = () => [...document.querySelectorAll(".ck-saved iframe")];
 
   function revive(node, data, { baseUrl, token }) {
     const line = textOf(data["text/plain"]);
@@ -82,9 +83,12 @@
         else if (loads(node)) due = due || setTimeout(look, PATIENCE);
       }
     };
-    new MutationObserver(() => document.querySelectorAll(".ck-saved iframe").forEach((frame) => {
-      frame.contentWindow.postMessage({ coursekit: "theme", theme: theme() }, "*");
-    })).observe(document.body, { attributeFilter: ["data-jp-theme-light"] });
+    new MutationObserver(() => frames().forEach((frame) => frame.contentWindow.postMessage({ coursekit: "theme", theme: theme() }, "*")))
+      .observe(document.body, { attributeFilter: ["data-jp-theme-light"] });
+    addEventListener("message", ({ data, source }) => { // a page says how high it is
+      const frame = data?.coursekit === "height" && frames().find((one) => one.contentWindow === source);
+      if (frame) frame.style.height = `${data.height}px`;
+    });
     new MutationObserver(() => (due = due || setTimeout(look, 150))).observe(document.body, { childList: true, subtree: true });
   }
 
