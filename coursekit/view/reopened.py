@@ -33,7 +33,8 @@ _LINE = re.compile(r"(?P<title>Explorer of [^:]+): (?P<name>[^:]+): joints \((?P
 _FITS = """<script>{
   const frame = document.currentScript.previousElementSibling;
   addEventListener("message", ({ data, source }) => { // the page says how high it is
-    if (source === frame.contentWindow && data?.coursekit === "height") frame.style.height = `${data.height}px`;
+    if (source !== frame.contentWindow || data?.coursekit !== "height") return;
+    frame.style.height = `${data.height}px`;
   });
 }</script>"""
 HINT = "No kernel runs here: joint sliders, where there are any, move the arm; run the notebook for the rest."
