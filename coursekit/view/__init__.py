@@ -12,13 +12,17 @@ no browser. The Viewer sends what has changed: commands made by meshcat.py, and 
 The page draws the kernel's pose as soon as that speaks of the same sliders; and in a motion, where the page
 says which configuration it shows, the Panel puts the sliders there, and all goes the same way.
 
-Everything here is imported when it is first used: `from coursekit import view` alone loads no widget code.
+Everything here is imported when it is first used: `from coursekit import view` alone loads no widget code. In
+a notebook that comes ahead of its use, while one reads on.
 """
 
+import contextlib
+import functools
 import logging
 from typing import Any
 
 from .. import _module
+from . import cells
 
 # On its first day on a machine matplotlib warns that it builds a font cache: nothing for a student to read.
 logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)
@@ -60,3 +64,13 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return __all__
+
+
+def _load_ahead(name: str) -> None:
+    with contextlib.suppress(ImportError):  # told where it is used
+        _module(name, extra="view")
+
+
+# Half of what a first explorer would wait for its kernel: widgets, and what plots are drawn with.
+_SLOW = "coursekit.view.explorers", "matplotlib.figure", "matplotlib.backends.backend_svg"
+cells.when_idle(*(functools.partial(_load_ahead, name) for name in _SLOW))

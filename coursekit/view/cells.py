@@ -1,6 +1,8 @@
 """Which cell of the notebook shows which panel: running a cell again closes what it showed before."""
 
+import asyncio
 import contextlib
+import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -33,6 +35,14 @@ def afterwards(act: Callable[[], None]) -> None:
         act()
 
     shell.events.register("post_run_cell", once)
+
+
+def when_idle(*acts: Callable[[], Any]) -> None:
+    """Do these, one by one, once the cell that runs now is answered; never, where no kernel runs."""
+    if "IPython" in sys.modules and sys.modules["IPython"].get_ipython():
+        with contextlib.suppress(RuntimeError):  # a shell without an event loop
+            for k, act in enumerate(acts, 1):  # what is asked of the kernel meanwhile comes in between
+                asyncio.get_running_loop().call_later(0.1 * k, act)
 
 
 def take_place(panel: Any) -> None:

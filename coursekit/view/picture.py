@@ -67,7 +67,7 @@ def png(scene: Scene, width: int = 720, height: int = 440, view: str = "home") -
             _paint(canvas, nothing_near, eye, copies, opacity)
         near = _paint(canvas, nothing_near, eye, solid)
         for one, opacity in clear:
-            _paint(canvas, near, eye, one, opacity)
+            _paint(canvas, near, eye, one, opacity, both_sides=True)  # a plane has no inside
         for seen_through, opacity in xrays:
             _paint(canvas, nothing_near, eye, seen_through, opacity)
         pixels[rows] = (np.clip(canvas, 0, 1) * 255).round().reshape(-1, eye.width, 3)
@@ -141,7 +141,7 @@ def _runs(start, end):
     return run, start[run] + np.arange(len(run)) - np.repeat(np.cumsum(count) - count, count)
 
 
-def _paint(canvas, near, eye, things, opacity=1.0):
+def _paint(canvas, near, eye, things, opacity=1.0, both_sides=False):
     """Paint (mesh, part) pairs onto the canvas where they are nearer than `near`; the new nearness."""
     if not things:
         return near
@@ -149,7 +149,7 @@ def _paint(canvas, near, eye, things, opacity=1.0):
     normals = np.concatenate([mesh.normals for mesh, _ in things])
     look = np.array([[*channels(color(part.color)), part.glow] for _, part in things])
     look = np.repeat(look, [len(mesh.vertices) for mesh, _ in things], axis=0)
-    at, corners, weights, depth = _rasterise(eye, *eye.project(vertices), faces, both_sides=opacity < 1)
+    at, corners, weights, depth = _rasterise(eye, *eye.project(vertices), faces, both_sides)
     nearest = near.copy()
     np.maximum.at(nearest, at, depth)
     seen = (depth >= nearest[at]) & (depth > near[at])

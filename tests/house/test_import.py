@@ -42,6 +42,20 @@ def test_rooms_load_nothing_heavy_before_it_is_needed(names):
     assert not {name.split(".")[0] for name in modules} & HEAVY
 
 
+def test_a_kernel_loads_what_explorers_need_once_the_cell_is_answered():
+    code = """if True:
+        import asyncio, sys, IPython
+        IPython.get_ipython = lambda: "a kernel's shell"
+        async def cells():
+            from coursekit import view
+            print("ipywidgets" in sys.modules)
+            await asyncio.sleep(1)
+            print({"ipywidgets", "coursekit.view.panel", "matplotlib.figure"} <= set(sys.modules))
+        asyncio.run(cells())"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["False", "True"]
+
+
 def test_every_name_of_the_face_can_be_imported():
     names = loaded_by("import coursekit\nfor name in coursekit.__all__: getattr(coursekit, name)")
     assert {"coursekit.kinematics.symbolic", "coursekit.view", "coursekit.classroom"} <= names
