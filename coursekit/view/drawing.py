@@ -40,6 +40,7 @@ class Arm(Drawing):
 
     color: str | int = "ghost"  # of a ghost
     columns: str = ""  # path of n arrows: how fast each joint moves the tool, which the page places, too
+    goal: str = ""  # path of a frame that its tool is at: the page moves it along with that
     links: np.ndarray | None = None  # (n, 4, 4): where a ghost's links stand, if not where its joints say
 
     def __init__(self, scene: Scene, name: str, robot: Robot, style: str, source: str) -> None:
@@ -66,6 +67,10 @@ class Arm(Drawing):
         if not 0 <= k <= self.robot.n:
             raise IndexError(f"{self.robot.name} has links 0 to {self.robot.n}, got {k}")
         return f"{self.path}/{k}"
+
+    def screws(self) -> dict:
+        """What the page needs to move it: its screws, and the tool at zero, column by column."""
+        return {"screws": self.robot.S.T.tolist(), "M": self.robot.M.T.ravel().tolist()}
 
     def look(self, solid: bool = True, skeleton: bool = False) -> None:
         """Show or hide the paint and the skeleton."""

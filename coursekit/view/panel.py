@@ -338,19 +338,19 @@ class Panel(ipywidgets.VBox):
             told = change.new
             target = {one.path: one for one in self._targets()}.get(told["what"])
             sliders = target.sliders if target else self._drivers(self.values)
-            with contextlib.ExitStack() as later:  # the page's sliders stand there: the picture goes first
-                with self._silence():
-                    for slider, value in zip(sliders, told["values"], strict=False):
-                        if slider is not None and value is not None:
-                            later.enter_context(slider.hold_sync())
-                            slider.value, slider.live = value, told["live"]
-                try:
+            try:
+                with contextlib.ExitStack() as later:  # the picture goes first
+                    with self._silence():
+                        for slider, value in zip(sliders, told["values"], strict=False):
+                            if slider is not None and value is not None:
+                                later.enter_context(slider.hold_sync())
+                                slider.value, slider.live = value, told["live"]
                     if target is None or not target.in_picture:
                         self.end_motion()
                     self.refresh(live=told["live"])
-                finally:
-                    self.viewer.heard = told["count"]
-                    self.viewer.answers += 1
+            finally:  # once the page has all of it
+                self.viewer.heard = told["count"]
+                self.viewer.answers += 1
 
     def _pointed(self, change):
         """A click on a plot, or a hand that drags there."""

@@ -103,6 +103,17 @@ class Scene:
             for a in ghosts
         ]
 
+    def reaching(self) -> dict:
+        """The arms, all of one robot, whose tool is at their goal, with which the page moves them; or {}."""
+
+        def is_there(arm):
+            goal = self.moved.get(arm.goal)
+            return goal is not None and np.allclose(arm.robot.fk(arm.theta), goal, rtol=0, atol=1e-6)
+
+        there = [arm for arm in self.robots.values() if is_there(arm)]
+        arms = {arm.path: arm.theta.tolist() for arm in there}
+        return {"goal": there[0].goal, **there[0].screws(), "arms": arms} if there else {}
+
     @property
     def moving(self) -> list[str]:
         """Paths that move: the links of every robot, and what was moved by its handle."""

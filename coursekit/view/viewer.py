@@ -64,6 +64,7 @@ class Viewer(Widget):
     playing = traitlets.Bool(False).tag(sync=True)  # more frames will follow
     drive = traitlets.Dict().tag(sync=True)  # how the page moves an arm by its sliders, see `driven_by`
     theta: traitlets.List = traitlets.List().tag(sync=True)  # where that arm is in `pose`
+    reaching = traitlets.Dict().tag(sync=True)  # how it moves arms along with a target, see `Scene.reaching`
     handles: traitlets.List = traitlets.List().tag(sync=True)  # what can be dragged, see `held_by`
     # by a hand: {"what", "values", "live", "count"}; the page does not wait for its echo
     dragged = traitlets.Dict().tag(sync=True, echo_update=False)
@@ -125,13 +126,11 @@ class Viewer(Widget):
         if arm is None or len(sliders) != arm.robot.n:
             self.drive = {}
             return
-        robot = arm.robot
         self.drive = {
             "path": arm.path,
             "columns": arm.columns,
-            "name": robot.name,
-            "screws": robot.S.T.tolist(),
-            "M": robot.M.T.ravel().tolist(),
+            "name": arm.robot.name,
+            **arm.screws(),
             "sliders": [slider and f"IPY_MODEL_{slider.model_id}" for slider in sliders],
             "per": [slider.shown_per_si if slider else 1.0 for slider in sliders],
         }
@@ -233,6 +232,7 @@ class Viewer(Widget):
             "moving": list(scene.moving),
             "pose": column_major(scene.pose()) if len(scene.moving) else b"",
             "theta": scene.robots["robot"].theta.tolist() if "robot" in scene.robots else [],
+            "reaching": scene.reaching(),
             "camera": dict(scene.camera),
             "views": dict(scene.views),
             "description": scene.text(),

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from coursekit import ik, robots, rotations, view
+from tests.browser.test_kinematics import BUSY
 
 pytestmark = pytest.mark.browser
 
@@ -83,6 +84,30 @@ def test_arrows_and_rings_move_the_target_and_all_solutions(opened):
     assert abs(w[2]) > 0.05 and np.abs(w[:2]).max() < 1e-6, "it turned about its own z"
     np.testing.assert_allclose(turned[:3, 3], T[:3, 3], atol=1e-6)
     assert_all_solutions_are_at(explorer, turned)
+
+
+def test_all_solutions_follow_the_target_while_the_kernel_is_busy(opened):
+    explorer = opened("inverse", robots.kuka_kr6(), "view.explore_inverse()")
+    before = target(explorer)
+    start = centre(explorer, "move {d} along its x")
+    explorer.page.evaluate(BUSY)
+    explorer.page.mouse.move(*start)
+    explorer.page.mouse.down()
+    for k in range(1, 7):
+        explorer.page.mouse.move(*(start + [0, 6 * k]))
+        explorer.page.wait_for_timeout(60)
+    T = np.array(explorer.notebook.transform("/ck/target"))
+    assert np.linalg.norm(T[:3, 3] - before[:3, 3]) > 0.02
+    right = ik.analytic(explorer.robot, T)
+    assert right.exists.all()
+    for k, theta in enumerate(right.theta):
+        found = [
+            explorer.notebook.transform(f"/ck/{f'branch{k}' if k else 'robot'}/{link}") for link in (3, 6)
+        ]
+        np.testing.assert_allclose(found, explorer.robot.displacements(theta)[[2, 5]], atol=1e-4)
+    explorer.page.mouse.up()
+    explorer.settle()
+    assert_all_solutions_are_at(explorer, target(explorer))
 
 
 def rotations_between(A, B):
@@ -190,6 +215,21 @@ def test_links_turn_their_joints_and_the_tool_can_be_pulled(opened):
     handle(explorer, "move the tool").press("PageDown")
     explorer.settle()
     np.testing.assert_allclose(kr6.fk(explorer.values())[:3, 3] - before, [0, 0, -0.01], atol=1e-4)
+
+
+SLOW = "__setattr__('_update', (lambda act: lambda v: (__import__('time').sleep(0.3), act(v)))(p._update))"
+
+
+def test_a_slow_kernel_does_not_pull_back_what_a_hand_holds(opened):
+    """What it says of an earlier moment comes while the hand has gone on, and after that nothing more."""
+    explorer = opened("conventions", robots.kuka_kr6(), "view.explore(robots.kuka_kr6())")
+    handle(explorer, "move the tool").wait_for()
+    explorer.kernel(SLOW)
+    for way in ((-30, 25), (25, -20)):
+        start = centre(explorer, "move the tool")
+        drag(explorer, start, way, steps=15)
+        np.testing.assert_allclose(centre(explorer, "move the tool"), start + way, atol=4)
+        explorer.assert_arm_stands_at(explorer.values())
 
 
 def test_a_drag_beside_the_arm_turns_the_picture(opened):

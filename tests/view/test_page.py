@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from coursekit import Robot, robots, view
+from coursekit import Robot, ik, lie, robots, view
 from coursekit.view import prediction
 from coursekit.view.explorers.jacobians import arrow_at
 from coursekit.view.script import STATIC
@@ -38,7 +38,7 @@ SLIDES = Robot.from_axes(
 )
 ARMS = [*robots.all().values(), SLIDES]
 COMPUTE = """
-import { arrowsOf, describe, displacements, product } from "%s";
+import { arrowsOf, describe, displacements, product, reachFor } from "%s";
 const cases = JSON.parse(await new Promise((done) => {
   let text = "";
   process.stdin.on("data", (part) => (text += part)).on("end", () => done(text));
@@ -49,6 +49,23 @@ const answer = ({ name, screws, M, theta }) => {
 };
 console.log(JSON.stringify(cases.map(answer)));
 """
+FOLLOW = (
+    COMPUTE[: COMPUTE.index("const answer")]
+    + """
+console.log(JSON.stringify(cases.map(({ screws, M, theta, goal }) => reachFor({ screws, M }, theta, goal))));
+"""
+)
+
+
+def compute(script, cases):
+    done = in_node(
+        "--input-type=module", "-e", script % (STATIC / "kinematics.js").as_uri(), input=json.dumps(cases)
+    )
+    return json.loads(done.stdout)
+
+
+def told(robot, theta):
+    return {"screws": robot.S.T.tolist(), "M": robot.M.T.ravel().tolist(), "theta": theta.tolist()}
 
 
 @pytest.fixture(scope="module")
@@ -58,13 +75,8 @@ def computed():
     for robot in ARMS:
         for theta in (robot.home, np.zeros(robot.n), 1e-9 * np.ones(robot.n), rng.uniform(-7, 7, robot.n)):
             cases.append((robot, theta))
-    told = [
-        {"name": r.name, "screws": r.S.T.tolist(), "M": r.M.T.ravel().tolist(), "theta": q.tolist()}
-        for r, q in cases
-    ]
-    script = COMPUTE % (STATIC / "kinematics.js").as_uri()
-    done = in_node("--input-type=module", "-e", script, input=json.dumps(told))
-    return list(zip(cases, json.loads(done.stdout), strict=True))
+    found = compute(COMPUTE, [{"name": robot.name, **told(robot, theta)} for robot, theta in cases])
+    return list(zip(cases, found, strict=True))
 
 
 def test_the_page_has_the_numbers_of_the_kernel(computed):
@@ -88,6 +100,25 @@ def test_the_page_says_it_in_the_words_of_the_kernel(computed):
         scene = view.Scene()
         scene.robot(robot, theta)
         assert found["words"] == scene.text()
+
+
+@pytest.mark.parametrize("robot", [robots.kuka_kr6(), robots.abb_irb1200()], ids=lambda robot: robot.name)
+def test_in_the_page_every_solution_follows_a_target_on_its_own_branch(robot):
+    """Where the closed form has it: the page steps there from the solution of the target before."""
+    theta = np.array([0.6, -1.0, 1.2, 0.7, 0.8, 0.3])
+    T = robot.fk(theta)
+    before = ik.analytic(robot, T)
+    for twist in ([0, 0, 0, 0.05, -0.02, 0.03], [0.1, -0.2, 0.1, 0, 0, 0], [0.05, 0.1, 0, 0.02, 0, 0.04]):
+        goal = T @ lie.exp6(np.array(twist))
+        after = ik.analytic(robot, goal)
+        both = np.flatnonzero(before.exists & after.exists)
+        assert len(both) >= 4
+        moved = {"goal": goal.T.ravel().tolist()}
+        found = compute(FOLLOW, [{**told(robot, before.theta[k]), **moved} for k in both])
+        for k, one in zip(both, found, strict=True):
+            assert one["far"] < 1e-5
+            links = np.reshape(one["D"], (-1, 4, 4)).transpose(0, 2, 1)
+            np.testing.assert_allclose(links, robot.displacements(after.theta[k]), rtol=0, atol=1e-4)
 
 
 @pytest.mark.parametrize(

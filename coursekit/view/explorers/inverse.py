@@ -69,6 +69,7 @@ class _Inverse(yours.Inverse, Explorer):
         self.arm = self.scene.robot(robot, self.shown)
         pointing.axes(self.scene, self.arm)
         self.target = self.scene.frame("/ck/target", self.T, letter="d", size=0.08 * self.scene.size)
+        self.arm.goal = self.target.path
 
     def controls(self):
         robot = self.robot
@@ -180,7 +181,7 @@ class _Inverse(yours.Inverse, Explorer):
             if name in present:
                 present[name].theta = theta
             else:
-                self.scene.robot(self.robot, theta, name=name, style="ghost")
+                self.scene.robot(self.robot, theta, name=name, style="ghost").goal = self.target.path
             pointing.mean(self.scene[f"/ck/{name}"], name, hidden=not shown)
 
     def steps(self):

@@ -96,6 +96,11 @@ function buildSlider(model, el) {
     draw();
   };
 
+  const stepBy = (jump, event) => {
+    event.preventDefault();
+    send(Number((model.get("value") + jump * (event.shiftKey ? step / 10 : step)).toFixed(9)), event.repeat);
+  };
+
   range.addEventListener("pointerdown", () => (dragging = true));
   range.addEventListener("input", () => {
     const value = Number(range.value);
@@ -107,11 +112,7 @@ function buildSlider(model, el) {
   });
   range.addEventListener("keydown", (event) => {
     const jump = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
-    const end = { Home: min, End: max }[event.key];
-    if (jump === undefined && end === undefined) return;
-    event.preventDefault();
-    const grid = event.shiftKey ? step / 10 : step;
-    send(end === undefined ? Number((model.get("value") + jump * grid).toFixed(9)) : end, event.repeat);
+    if (jump || event.key === "Home" || event.key === "End") stepBy(jump || (event.key === "Home" ? -Infinity : Infinity), event);
   });
   range.addEventListener("keyup", () => model.get("live") && send(model.get("value"), false));
   box.addEventListener("input", () => (box.ckEdited = true));
@@ -132,9 +133,8 @@ function buildSlider(model, el) {
     const jump = { ArrowUp: 1, ArrowDown: -1, Escape: 0 }[event.key];
     if (jump === undefined) return;
     box.ckEdited = false;
-    if (!jump) return draw();
-    event.preventDefault();
-    send(Number((model.get("value") + jump * (event.shiftKey ? step / 10 : step)).toFixed(9)), event.repeat);
+    if (jump) stepBy(jump, event);
+    else draw();
   });
   name.title = "double click: reset";
   name.addEventListener("dblclick", () => send(model.get("start"), false));

@@ -9,18 +9,23 @@ function makeFollower(model, moved) {
   };
   const forget = () => sliders.forEach((slider) => slider && slider.off("change:touched", touched));
   const listen = async () => {
-    const ids = (model.get("drive").sliders || []).map((id) => id && model.widget_manager.get_model(id.replace("IPY_MODEL_", "")));
-    const found = await Promise.all(ids);
+    const found = await childModels(model, model.get("drive").sliders || []);
     if (over) return; // closed meanwhile: nothing may hang on the sliders
     forget();
     sliders = found;
     ahead = false;
     sliders.forEach((slider) => slider && slider.on("change:touched", touched));
   };
-  // Joint values in radians and metres: of the sliders, and of the kernel for the joints that have none.
+  // What a hand in the picture holds, {what, values}, as long as the kernel has not taken it over: meanwhile its word on
+  // the sliders is of an earlier moment.
+  const hand = () => {
+    const told = model.get("dragged") || {};
+    return told.count > model.get("heard") ? told : {};
+  };
+  // Joint values in radians and metres: of the hand or the sliders, and of the kernel for the joints that have none.
   const theta = () => {
-    const { per } = model.get("drive"), known = model.get("theta");
-    return sliders.map((slider, k) => (slider ? slider.get("value") / per[k] : known[k]));
+    const { per } = model.get("drive"), known = model.get("theta"), { what, values } = hand();
+    return sliders.map((slider, k) => (slider ? (what === "theta" ? values[k] : slider.get("value")) / per[k] : known[k]));
   };
   const again = () => (ready = listen());
   model.on("change:drive", again);
@@ -28,6 +33,7 @@ function makeFollower(model, moved) {
   return {
     ready: () => ready, // the sliders are known
     sliders: () => sliders,
+    hand,
     theta,
     isAhead: () => ahead,
     // a pose of the kernel is there: does it speak of what the sliders say now?

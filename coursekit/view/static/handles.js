@@ -5,17 +5,14 @@
 // screen. All of it ends in sliders, as if a person had moved those, and reaches the kernel as one message.
 
 const ARROW = 88, RING = 48, EDGE = 16; // pixels
-const SVG = "http://www.w3.org/2000/svg";
 
 // taken(what, isPoint): a hand has moved "theta" or the target at a path; redraw(): what stands where has changed
 function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, redraw }) {
   const layer = element("div", { class: "ck-handles", role: "group", "aria-label": "handles in the picture" });
-  const lines = document.createElementNS(SVG, "svg");
-  lines.setAttribute("aria-hidden", "true");
+  const lines = svg("svg", { "aria-hidden": "true" });
   layer.append(lines);
   pane.append(layer);
-  let targets = [], drawn = []; // each with its sliders, `held`: its values in our hands, before the kernel has them
-  let sent = 0, over = false;
+  let targets = [], grips = [], over = false; // targets: each with its sliders
 
   // --- from metres to pixels: a point of the space frame on the screen
   const point = new THREE.Vector3(), eye = new THREE.Vector3();
@@ -51,18 +48,28 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
       sliders[k].set("value", Number(inside.toPrecision(15)));
       sliders[k].set("touched", sliders[k].get("touched") + 1); // the arm follows, and whoever waits for the kernel
     });
-    sent += 1;
-    model.set("dragged", { what, values: sliders.map((slider) => slider && slider.get("value")), live, count: sent });
+    const count = (model.get("dragged")?.count || 0) + 1;
+    model.set("dragged", { what, values: sliders.map((slider) => slider && slider.get("value")), live, count });
     model.save_changes();
   };
-  const unheard = () => sent > model.get("heard");
   const putTarget = (target, T, live) => {
     put(target.name, target.sliders, target.per.map((per, k) => valuesOf(T)[k] * per), live);
-    target.held = target.sliders.map((slider, k) => slider.get("value") / target.per[k]);
     taken(target.name, isPoint(target));
   };
+  const bringAlong = (target) => { // as far as it goes in small steps: the kernel knows all ways, and why one ends
+    const { goal, arms, ...arm } = model.get("reaching");
+    if (goal !== target.name) return false;
+    for (const [path, theta] of Object.entries(arms)) {
+      const { D, far } = reachFor(arm, theta, targetPose(target));
+      if (far < 1e-5) D.forEach((T, k) => viewer.set_transform([...splitPath(path), String(k + 1)], T));
+    }
+    return true;
+  };
   const isPoint = (target) => target.sliders.length === 3; // moved as it is turned: not at all
-  const targetPose = ({ held, sliders, per }) => poseOf([...(held || sliders.map((slider, k) => slider.get("value") / per[k])), 0, 0, 0]);
+  const targetPose = ({ name, sliders, per }) => {
+    const { what, values } = follower.hand();
+    return poseOf([...sliders.map((slider, k) => (what === name ? values[k] : slider.get("value")) / per[k]), 0, 0, 0]);
+  };
   const putTheta = (theta, live) => {
     const { per } = model.get("drive");
     put("theta", follower.sliders(), theta.map((q, k) => q * per[k]), live);
@@ -76,29 +83,23 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
   // --- grips: where each stands, and what a pull and a key do
   const targetGrips = (target) => (isPoint(target) ? [0] : [0, 1]).flatMap((kind) => [0, 1, 2].map((k) => {
     const T = () => targetPose(target);
-    const column = (j) => T().slice(4 * j, 4 * j + 3);
-    const origin = () => T().slice(12, 15);
-    const place = () => {
-      const long = kind ? RING / perMetre(origin()) : arrowFrom(origin(), column(k));
-      const [u, v] = [column((k + 1) % 3), column((k + 2) % 3)];
-      const way = kind ? u.map((x, i) => -(x + v[i]) * Math.SQRT1_2) : column(k); // rings on the far side of the arrows
-      return origin().map((x, i) => x + long * way[i]);
+    const frame = () => [0, 4, 8, 12].map((j) => T().slice(j, j + 3)); // its axes and its origin
+    const onRing = (turns) => {
+      const A = frame(), [u, v, o] = [A[(k + 1) % 3], A[(k + 2) % 3], A[3]], long = RING / perMetre(o);
+      return turns.map((turn) => o.map((x, i) => x + long * (Math.cos(turn) * u[i] + Math.sin(turn) * v[i])));
     };
-    const path = () => {
-      if (!kind) return [origin(), place()];
-      const long = RING / perMetre(origin()), [u, v] = [column((k + 1) % 3), column((k + 2) % 3)];
-      return Array.from({ length: 37 }, (_, i) => {
-        const [c, s] = [Math.cos((i * Math.PI) / 18) * long, Math.sin((i * Math.PI) / 18) * long];
-        return origin().map((x, j) => x + c * u[j] + s * v[j]);
-      });
+    const arrow = () => {
+      const A = frame(), long = arrowFrom(A[3], A[k]);
+      return [A[3], A[3].map((x, i) => x + long * A[k][i])];
     };
+    const place = () => (kind ? onRing([1.25 * Math.PI])[0] : arrow()[1]); // rings on the far side of the arrows
     const name = "xyz"[k];
     return {
-      text: kind ? `↻${name}` : name, kind: kind ? `${name} ring` : name, place, path,
+      text: kind ? `↻${name}` : name, kind: kind ? `${name} ring` : name, place,
+      path: () => (kind ? onRing(Array.from({ length: 37 }, (_, i) => (i * Math.PI) / 18)) : arrow()),
       label: kind ? `turn ${target.letter} about its ${name}` : `move ${target.letter} along its ${name}`,
       pull(dx, dy) {
-        const p = place();
-        const way = kind ? crossed(column(k), p.map((x, i) => x - origin()[i])) : column(k);
+        const p = place(), A = frame(), way = kind ? crossed(A[k], p.map((x, i) => x - A[3][i])) : A[k];
         putTarget(target, movedAlong(T(), kind, k, follow(p, way, dx, dy)), true);
       },
       key: (steps, live) => putTarget(target, movedAlong(T(), kind, k, steps * (kind ? Math.PI / 180 : 0.01)), live),
@@ -133,7 +134,7 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
   const toolGrip = () => {
     const arm = () => model.get("drive");
     const place = () => product(displacements(arm().screws, follower.theta()).at(-1), arm().M).slice(12, 15);
-    const reach = (goal, live) => putTheta(goal ? reachFor(arm(), follower.theta(), goal, ends()) : follower.theta(), live);
+    const reach = (goal, live) => putTheta(goal ? reachFor(arm(), follower.theta(), goal, ends()).q : follower.theta(), live);
     return freeGrip("tool", "move the tool", place, reach);
   };
   const pointGrip = (target) => freeGrip("?", `move ${target.letter}`, () => targetPose(target).slice(12, 15),
@@ -157,20 +158,19 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
     };
     const end = () => {
       if (due) pull();
-      for (const name of ["pointerup", "pointercancel", "lostpointercapture"]) node.removeEventListener(name, end);
-      node.removeEventListener("pointermove", move);
+      held.abort();
       viewer.controls.enabled = true;
       grip.end();
     };
+    const held = new AbortController(), { signal } = held;
     viewer.controls.enabled = false;
-    node.addEventListener("pointermove", move);
-    for (const name of ["pointerup", "pointercancel", "lostpointercapture"]) node.addEventListener(name, end);
+    node.addEventListener("pointermove", move, { signal });
+    for (const name of ["pointerup", "pointercancel", "lostpointercapture"]) node.addEventListener(name, end, { signal });
   };
   const makeButton = (grip) => {
     const node = element("button", { ...own, type: "button", class: `ck-handle ${grip.kind}`, "aria-label": grip.label,
       title: `${grip.label}: drag it, or use the arrow keys (Shift: finer)` }, grip.text);
-    const line = document.createElementNS(SVG, "polyline");
-    line.setAttribute("class", `ck-handle-line ${grip.kind}`);
+    const line = svg("polyline", { class: `ck-handle-line ${grip.kind}` });
     lines.append(line);
     node.addEventListener("pointerdown", (event) => {
       if (event.button) return;
@@ -189,17 +189,15 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
   };
 
   const rebuild = () => {
-    const grips = [...targets.flatMap(targetGrips), ...targets.filter(isPoint).map(pointGrip)];
-    if (movesArm()) grips.push(toolGrip());
     lines.replaceChildren();
-    drawn.forEach(({ node }) => node.remove());
-    drawn = grips.map(makeButton);
+    grips.forEach(({ node }) => node.remove());
+    grips = [...targets.flatMap(targetGrips), ...targets.filter(isPoint).map(pointGrip), ...(movesArm() ? [toolGrip()] : [])].map(makeButton);
     redraw();
   };
   const movesArm = () => follower.sliders().some(Boolean) && !targets.some(isPoint); // or else it is predicted, not tried
   const listen = async () => {
     const found = await Promise.all((model.get("handles") || []).map(async ({ path, letter, per, sliders }) =>
-      ({ name: path, path: splitPath(path), letter, per, sliders: await childModels(model, sliders), held: null })));
+      ({ name: path, path: splitPath(path), letter, per, sliders: await childModels(model, sliders) })));
     await follower.ready();
     if (over) return;
     targets = found;
@@ -251,19 +249,17 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
   });
 
   return {
-    // the page's own pose of a target, as long as the kernel has not said the last one
+    // what a hand holds stands where that is, as do its sliders; true if it is a target, and all arms at it went along
     place() {
-      for (const target of targets) {
-        if (!target.held) continue;
-        if (!unheard()) target.held = null; // its sliders are now as the kernel has put them
-        else target.sliders.forEach((slider, k) => slider.set("value", Number((target.held[k] * target.per[k]).toPrecision(15))));
-        viewer.set_transform(target.path, targetPose(target));
-      }
+      const { what, values } = follower.hand(), target = targets.find(({ name }) => name === what);
+      if (what) (target ? target.sliders : follower.sliders()).forEach((slider, k) => slider && slider.set("value", values[k]));
+      if (target) viewer.set_transform(target.path, targetPose(target));
+      return Boolean(target) && bringAlong(target);
     },
     draw() { // gives where they stand
       const { width, height } = renderer.size(), shownAt = [];
       lines.setAttribute("viewBox", `0 0 ${width} ${height}`);
-      for (const { node, line, grip } of drawn) {
+      for (const { node, line, grip } of grips) {
         const [x, y, z] = project(grip.place());
         const ends = grip.path().map(project);
         const turned = ends.length === 2 && Math.hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]) < 18; // towards us

@@ -1,11 +1,12 @@
 // Small helpers of all: elements, and keys and menus that the notebook must not take for its own.
 
-function element(tag, attributes = {}, ...children) {
-  const node = document.createElement(tag);
+function filled(node, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
   node.append(...children);
   return node;
 }
+const element = (tag, attributes = {}, ...children) => filled(document.createElement(tag), attributes, children);
+const svg = (tag, attributes, ...children) => filled(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
 
 // JupyterLab and Notebook take arrow keys and letters for themselves, unless an element says no: "d d" deletes a cell.
 const own = { "data-lm-suppress-shortcuts": "true" };

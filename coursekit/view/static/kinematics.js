@@ -46,10 +46,9 @@ export function describe({ name, screws, M }, theta) {
     const tie = Math.abs((4 * near) % 2) === 1;
     return (tie ? (2 * Math.round(5 * near)) / 10 : near).toFixed(1).replace(/^-(0\.0)$/, "$1");
   };
-  const say = (q, k) => (slides[k] ? [1000 * q, " mm"] : [(180 / Math.PI) * q, " deg"]);
-  const joints = slides.includes(true)
-    ? `(${theta.map((q, k) => round(say(q, k)[0]) + say(q, k)[1]).join(", ")})`
-    : `(${theta.map((q, k) => round(say(q, k)[0])).join(", ")}) deg`;
+  const shown = theta.map((q, k) => round(q * (slides[k] ? 1000 : 180 / Math.PI)));
+  const each = shown.map((x, k) => `${x} ${slides[k] ? "mm" : "deg"}`);
+  const joints = slides.includes(true) ? `(${each.join(", ")})` : `(${shown.join(", ")}) deg`;
   const tool = product(displacements(screws, theta).at(-1), M).slice(12, 15);
   return `${name}: joints ${joints}; tool at (${tool.map((x) => round(1000 * x)).join(", ")}) mm`;
 }
@@ -76,22 +75,27 @@ export function movedAlong(T, kind, k, by) {
 }
 
 /**
- * Joint values nearer to where the tool point should go, by damped least squares; joints that are not free stay.
- * @param {{screws: number[][], M: number[]}} arm @param {number[]} theta @param {number[]} goal (x, y, z) in metres
+ * Joint values that bring the tool nearer to its goal, by damped least squares; joints that are not free stay.
+ * @param {{screws: number[][], M: number[]}} arm @param {number[]} theta @param {number[]} goal a point in metres, or a pose
  * @param {(number[] | null)[]} ends lowest and highest value of each free joint, null of the others
+ * @returns {{q: number[], D: number[][], far: number}} how far it still is, in metres and, of a pose, radians
  */
-export function reachFor({ screws, M }, theta, goal, ends) {
+export function reachFor({ screws, M }, theta, goal, ends = screws.map(() => [-Infinity, Infinity])) {
+  const isPose = goal.length > 3, point = isPose ? goal.slice(12, 15) : goal;
   const gapAt = (q) => {
-    const D = displacements(screws, q), p = product(D.at(-1), M).slice(12, 15), gap = goal.map((x, i) => x - p[i]);
+    const D = displacements(screws, q), T = product(D.at(-1), M), p = T.slice(12, 15);
+    const axes = isPose ? [0, 4, 8].map((k) => crossed(T.slice(k, k + 3), goal.slice(k, k + 3))) : [[], [], []];
+    const gap = [...point.map((x, i) => x - p[i]), ...axes[0].map((x, i) => (x + axes[1][i] + axes[2][i]) / 2)]; // and the turn left
     return { q, D, p, gap, far: Math.hypot(...gap) };
   };
   const free = ends.map(Boolean); // a joint that has come to its end does not help any more
   let here = gapAt(theta), damping = 1e-3;
   for (let step = 0; step < 25 && here.far > 1e-6 && damping < 1e3; step += 1) {
-    const columns = screws.map((S, k) => (free[k] ? velocityOf(k ? here.D[k - 1] : null, S, here.p) : null));
-    const A = [0, 1, 2].map((i) => [0, 1, 2].map((j) => columns.reduce((sum, c) => sum + (c ? c[i] * c[j] : 0), i === j ? damping : 0)));
-    const y = solve3(A, here.gap);
-    const change = columns.map((c) => (c ? dot(c, y) : 0));
+    const column = (T, S) => [...velocityOf(T, S, here.p), ...(isPose ? turned(T, S.slice(0, 3)) : [])];
+    const columns = screws.map((S, k) => (free[k] ? column(k ? here.D[k - 1] : null, S) : null));
+    const A = here.gap.map((_, i) => here.gap.map((_, j) => columns.reduce((sum, c) => sum + (c ? c[i] * c[j] : 0), i === j ? damping : 0)));
+    const y = solve(A, here.gap);
+    const change = columns.map((c) => (c ? c.reduce((sum, x, i) => sum + x * y[i], 0) : 0));
     const calm = Math.min(1, 0.2 / Math.max(...change.map(Math.abs), 1e-12)); // no joint leaps
     const q = here.q.map((value, k) => (columns[k] ? Math.min(ends[k][1], Math.max(ends[k][0], value + calm * change[k])) : value));
     const there = gapAt(q);
@@ -101,18 +105,17 @@ export function reachFor({ screws, M }, theta, goal, ends) {
       q.forEach((value, k) => { if (free[k] && (value === ends[k][0] || value === ends[k][1])) free[k] = false; });
     } else damping *= 8;
   }
-  return here.q;
+  return here;
 }
 
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const times = (T, [x, y, z]) => [0, 1, 2].map((i) => T[i] * x + T[4 + i] * y + T[8 + i] * z);
+// A direction as T turns it; null turns nothing.
+const turned = (T, [x, y, z]) => (T ? [0, 1, 2].map((i) => T[i] * x + T[4 + i] * y + T[8 + i] * z) : [x, y, z]);
 const crossed = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 
 /** How fast a point p goes when a joint moves, whose screw S the joints before carried by T (null: by nothing). */
 export function velocityOf(T, S, p) {
-  const w = T ? times(T, S.slice(0, 3)) : S.slice(0, 3), v = T ? times(T, S.slice(3)) : S.slice(3);
-  const from = T ? p.map((x, i) => x - T[12 + i]) : p;
-  return crossed(w, from).map((x, i) => x + v[i]);
+  const from = T ? p.map((x, i) => x - T[12 + i]) : p, v = turned(T, S.slice(3));
+  return crossed(turned(T, S.slice(0, 3)), from).map((x, i) => x + v[i]);
 }
 
 /** Where the arrows of J's columns stand, as arrow_at in Python. @param {{screws: number[][], M: number[]}} arm @param {number[][]} D displacements */
@@ -126,8 +129,12 @@ export function arrowsOf({ screws, M }, D) {
   });
 }
 
-function solve3(A, b) {
-  const [a, c, d] = [0, 1, 2].map((j) => [A[0][j], A[1][j], A[2][j]]); // columns
-  const det = dot(a, crossed(c, d));
-  return [dot(b, crossed(c, d)) / det, dot(a, crossed(b, d)) / det, dot(a, crossed(c, b)) / det];
+// x of A x = b, where A is symmetric and positive definite: no pivot has to be looked for.
+function solve(A, b) {
+  const rows = A.map((row, i) => [...row, b[i]]);
+  rows.forEach((row, i) => rows.forEach((other) => {
+    const part = other[i] / row[i];
+    if (other !== row) row.forEach((x, j) => (other[j] -= part * x));
+  }));
+  return rows.map((row, i) => row[b.length] / row[i]);
 }

@@ -50,7 +50,7 @@ function formula(model, el) {
 // A small figure for each row of a table: a click chooses it, pointing at it shows it in the picture. `choose(i)`.
 function smallFigures(choose) {
   const node = element("div", { class: "ck-figures", role: "group", "aria-label": "the rows of the table as figures" });
-  const SVG = "http://www.w3.org/2000/svg", KINDS = ["ground", "goal", "arm"];
+  const KINDS = ["ground", "goal", "arm"];
   let buttons = [];
   const make = ({ word }, i) => {
     const button = operated("button", { type: "button", class: "ck-one" });
@@ -60,15 +60,8 @@ function smallFigures(choose) {
   };
   const fill = (button, { lines, name, note }, isChosen) => {
     const says = { none: "does not exist", outside: "outside the limits" }[note] || "";
-    const drawing = document.createElementNS(SVG, "svg");
-    drawing.setAttribute("viewBox", "0 0 100 76");
-    drawing.setAttribute("aria-hidden", "true");
-    lines.forEach((points, k) => {
-      const line = document.createElementNS(SVG, "polyline");
-      line.setAttribute("points", points);
-      line.setAttribute("class", `ck-${KINDS[k] || "fin"}`);
-      drawing.append(line);
-    });
+    const drawing = svg("svg", { viewBox: "0 0 100 76", "aria-hidden": "true" },
+      ...lines.map((points, k) => svg("polyline", { points, class: `ck-${KINDS[k] || "fin"}` })));
     button.replaceChildren(drawing, element("span", {}, name), element("span", { class: "ck-note" }, says));
     button.disabled = note === "none";
     button.setAttribute("aria-pressed", isChosen);

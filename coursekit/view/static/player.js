@@ -5,28 +5,24 @@ const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
 // show(k) draws frame k of the motion; report(k, playing) tells the kernel, which shows the same; wake() asks for
 // animation frames.
 function makePlayer({ show, report, wake }) {
-  const play = element("button", { type: "button", class: "ck-button ck-play" }, "play");
-  const back = element("button", { type: "button", class: "ck-button", title: "to the first pose" }, "restart");
-  const scrub = element("input", { type: "range", class: "ck-scrub", min: 0, step: 1, "aria-label": "pose along the motion" });
-  const speed = element("select", { class: "ck-button", "aria-label": "playing speed" });
+  const play = operated("button", { type: "button", class: "ck-button ck-play" }, "play");
+  const back = operated("button", { type: "button", class: "ck-button", title: "to the first pose" }, "restart");
+  const scrub = operated("input", { type: "range", class: "ck-scrub", min: 0, step: 1, "aria-label": "pose along the motion" });
+  const speed = operated("select", { class: "ck-button", "aria-label": "playing speed" });
   for (const factor of SPEEDS) speed.append(element("option", { value: factor }, `${factor} x`));
-  const loop = element("input", { type: "checkbox" });
+  const loop = operated("input", { type: "checkbox" });
   const count = element("span", { class: "ck-count" });
-  const bar = element("div", { class: "ck-player", role: "group", "aria-label": "motion", "data-lm-suppress-shortcuts": "true" });
+  const bar = operated("div", { class: "ck-player", role: "group", "aria-label": "motion" });
   bar.append(play, back, scrub, count, speed, element("label", { class: "ck-loop" }, loop, "repeat"));
-  for (const control of [play, back, scrub, speed, loop]) control.setAttribute("data-lm-suppress-shortcuts", "true");
 
   let motion = null; // {frames, fps}
   let frame = 0, playing = false, due = 0, last = null;
 
-  const standAt = (k) => {
+  const follow = (k) => {
     frame = k;
     scrub.value = k;
     scrub.setAttribute("aria-valuetext", `pose ${k + 1} of ${motion.frames}`);
     count.textContent = `${k + 1} / ${motion.frames}`;
-  };
-  const follow = (k) => {
-    standAt(k);
     show(k);
   };
   const go = (k) => {
@@ -45,28 +41,22 @@ function makePlayer({ show, report, wake }) {
     if (on) wake();
     else if (motion) report(frame, false);
   };
-  const start = () => {
-    if (frame >= motion.frames - 1) go(0);
-    setPlaying(true);
-  };
   const step = (k) => {
     if (!motion) return;
     mark(false);
     go(Math.max(0, Math.min(motion.frames - 1, k)));
   };
 
-  play.onclick = () => (playing ? setPlaying(false) : start());
-  back.onclick = () => step(0);
-  scrub.oninput = () => {
-    mark(false);
-    go(Number(scrub.value));
+  play.onclick = () => {
+    if (!playing && frame >= motion.frames - 1) go(0);
+    setPlaying(!playing);
   };
-  bar.addEventListener("keydown", (event) => {
-    event.stopPropagation(); // the notebook has its own meaning for these keys
-    if (event.key === " " && event.target === scrub) {
-      event.preventDefault();
-      play.click();
-    }
+  back.onclick = () => step(0);
+  scrub.oninput = () => step(Number(scrub.value));
+  scrub.addEventListener("keydown", (event) => {
+    if (event.key !== " ") return;
+    event.preventDefault();
+    play.click();
   });
 
   return {
@@ -78,10 +68,7 @@ function makePlayer({ show, report, wake }) {
     load(next, at = null) {
       motion = next && next.frames ? next : null;
       bar.hidden = !motion;
-      if (!motion) {
-        playing = false;
-        return;
-      }
+      if (!motion) return mark(false);
       scrub.max = motion.frames - 1;
       speed.value = "1";
       loop.checked = !!motion.loop;

@@ -291,7 +291,6 @@ function makeStage(MeshCat, pane, quality) {
 
   // The wheel belongs to the notebook until the pane has been clicked.
   viewer.controls.enableZoom = false;
-  pane.addEventListener("pointerdown", () => { viewer.controls.enableZoom = true; pane.focus({ preventScroll: true }); });
   pane.addEventListener("pointerleave", () => { viewer.controls.enableZoom = false; });
 
   // A finger up or down scrolls the page, sideways it turns the picture; what it holds goes along, and two move and zoom.
@@ -303,6 +302,8 @@ function makeStage(MeshCat, pane, quality) {
   }
   let stood = false; // whether the camera's stand is kept: a finger turns it a little before the page scrolls
   pane.addEventListener("pointerdown", (event) => {
+    viewer.controls.enableZoom = true;
+    pane.focus({ preventScroll: true });
     if (!event.isPrimary) return;
     stood = true;
     viewer.controls.saveState();

@@ -141,7 +141,10 @@ function makeViewer() {
         taken(what, isGuess) {
           if (!isGuess) player.load(null);
           if (what === "theta") return stage.moved();
-          handles.place();
+          if (handles.place()) {
+            stage.moved();
+            return stage.now();
+          }
           handles.draw(); // the rest waits for the kernel's answer, which would wait for a frame of the target alone
           late = late || setTimeout(stage.moved, 100);
         },
@@ -198,13 +201,7 @@ function makeViewer() {
         if (model.get("camera").position) camera.show(model.get("camera"));
       };
       const onText = () => pane.setAttribute("aria-label", model.get("description"));
-      pane.addEventListener("keydown", (event) => {
-        const key = keys(event.key, camera, player, () => camera.show(model.get("camera")));
-        if (key) {
-          event.preventDefault();
-          event.stopPropagation();
-        }
-      });
+      takeKeys(pane, camera, player, () => camera.show(model.get("camera")));
 
       const view = {
         change(deleted, buffers) {
@@ -229,7 +226,7 @@ function makeViewer() {
       views.add(view);
 
       const changes = { pose: onPose, theta: onPose, moving: onPose, frame: onPose, labels: onLabels, ghosts: onGhosts, camera: onCamera, description: onText,
-        motion: () => onMotion(null), height: () => (box.style.height = `${model.get("height")}px`) };
+        heard: () => follower.isAhead() && onPose(), motion: () => onMotion(null), height: () => (box.style.height = `${model.get("height")}px`) };
       for (const [name, act] of Object.entries(changes)) model.on(`change:${name}`, act);
       box.coursekit = { stage, viewer, player, follower, page: page() }; // for the browser's console and the tests
 
@@ -270,15 +267,19 @@ function sendAll(viewer, commands) {
   }
 }
 
-// The pane's own keys. True when the key was one of them.
-function keys(key, camera, player, home) {
-  const act = {
+// The pane's own keys.
+function takeKeys(pane, camera, player, home) {
+  const acts = {
     ArrowLeft: () => camera.turn(-0.1, 0), ArrowRight: () => camera.turn(0.1, 0),
     ArrowUp: () => camera.turn(0, -0.1), ArrowDown: () => camera.turn(0, 0.1),
     "+": () => camera.turn(0, 0, 0.9), "-": () => camera.turn(0, 0, 1.1), Home: home, " ": player.toggle,
-  }[key];
-  if (act) act();
-  return Boolean(act);
+  };
+  pane.addEventListener("keydown", (event) => {
+    if (!acts[event.key]) return;
+    event.preventDefault();
+    event.stopPropagation();
+    acts[event.key]();
+  });
 }
 
 // The first view of a page waits for its script and its shaders: meanwhile the kernel's own picture stands over the pane.
@@ -383,7 +384,7 @@ function watchKernel(model, line) {
   };
 }
 
-// The models behind references to widgets.
+// The models behind references to widgets; null stays null.
 function childModels(model, ids) {
-  return Promise.all(ids.map((id) => model.widget_manager.get_model(id.replace("IPY_MODEL_", ""))));
+  return Promise.all(ids.map((id) => id && model.widget_manager.get_model(id.replace("IPY_MODEL_", ""))));
 }
