@@ -1,5 +1,7 @@
 """A scene as a PNG, without a browser: what GitHub, nbconvert and a reader without WebGL see.
 
+Its ground is left clear, so that it stands on a white page as on a dark one.
+
 A small software renderer: every triangle is spread over the pixels of its bounding box, and at each pixel the
 nearest wins. All triangles at once, in numpy.
 """
@@ -18,12 +20,11 @@ from .camera import FOV
 from .paint import PALETTE, channels, color
 from .scene import Scene
 
-PAPER = np.array([0.972, 0.976, 0.982])
 KEY = np.array([0.8, -0.95, 1.9]) / np.linalg.norm([0.8, -0.95, 1.9])  # where the light comes from
-INK = {"x": 0xC93D31, "y": 0x2F8A4B, "z": 0x2F63C9, "axis": 0x6A3FB0, "tick": 0x8A94A0}
+INK = {"x": 0xC02F24, "y": 0x25783E, "z": 0x2558BD, "axis": 0x6A3FB0, "tick": 0x5B6675}
 BAND = 128  # rows that are painted at once
 FINER = 2  # pixels drawn per pixel kept, along each side
-SHADES = 96  # colors in the file
+SHADES = 256  # colors in the file
 LINE = 14  # pixels from one label to the next below it
 
 
@@ -55,13 +56,15 @@ def png(scene: Scene, width: int = 720, height: int = 440, view: str = "home") -
         ([thing for thing in solid if thing[1].xray == xray], xray)
         for xray in sorted({part.xray for _, part in solid} - {0})
     ]
-    paper, shadow = _ground(scene, eye, [mesh for mesh, part in solid if part.casts])
-    pixels = np.empty((eye.height, eye.width, 3), np.uint8)
+    ink = channels(PALETTE["grid"])
+    grid, shadow = _ground(scene, eye, [mesh for mesh, part in solid if part.casts])
+    pixels = np.empty((eye.height, eye.width, 4), np.uint8)
     # in bands: a kernel in the browser keeps for ever the most memory that it once needed
     for start in range(0, eye.height, BAND):
         eye.rows = start, min(start + BAND, eye.height)
         rows = slice(*eye.rows)
-        canvas = paper[rows].reshape(-1, 3) / 255 * (1 - 0.2 * shadow[rows].reshape(-1, 1) / 255)
+        lines, shade = (part[rows].reshape(-1, 1) / 255 for part in (grid, 0.2 * shadow))
+        canvas = np.hstack([(1 - shade) * lines * ink, lines + shade * (1 - lines)])  # times its opacity
         nothing_near = np.zeros(len(canvas))
         for copies, opacity in ghosts:
             _paint(canvas, nothing_near, eye, copies, opacity)
@@ -70,11 +73,22 @@ def png(scene: Scene, width: int = 720, height: int = 440, view: str = "home") -
             _paint(canvas, near, eye, one, opacity, both_sides=True)  # a plane has no inside
         for seen_through, opacity in xrays:
             _paint(canvas, nothing_near, eye, seen_through, opacity)
-        pixels[rows] = (np.clip(canvas, 0, 1) * 255).round().reshape(-1, eye.width, 3)
-    image = Image.fromarray(pixels).resize((width, height), Image.Resampling.BOX)
+        pixels[rows] = (np.clip(canvas, 0, 1) * 255).round().reshape(-1, eye.width, 4)
+    image = Image.frombytes("RGBa", (eye.width, eye.height), pixels.tobytes())
+    image = image.resize((width, height), Image.Resampling.BOX).convert("RGBA")
     _letter(image, scene, eye)
+    return _packed(image)
+
+
+def _packed(image):
+    """PNG bytes of few colors, clear and half clear ones among them: most for what is faint."""
+    image.putalpha(image.getchannel("A").point([round((255 * a) ** 0.5) for a in range(256)]))
+    few = image.quantize(SHADES, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+    palette = np.reshape(few.getpalette("RGBA"), (-1, 4))
+    palette[:, 3] = palette[:, 3] ** 2 // 255
+    few.putpalette(palette.astype(np.uint8).tobytes(), "RGBA")
     file = io.BytesIO()
-    image.quantize(SHADES, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(file, "PNG")
+    few.save(file, "PNG")
     return file.getvalue()
 
 
@@ -156,7 +170,8 @@ def _paint(canvas, near, eye, things, opacity=1.0, both_sides=False):
     at, corners, weights = at[seen], corners[seen], weights[seen]
     normal = np.einsum("ij,ijk->ik", weights, normals[corners])
     paint = look[corners[:, 0]]
-    canvas[at] = (1 - opacity) * canvas[at] + opacity * _shade(paint[:, :3], normal, paint[:, 3], eye)
+    shown = _shade(paint[:, :3], normal, paint[:, 3], eye).clip(0, 1)
+    canvas[at] = (1 - opacity) * canvas[at] + opacity * np.column_stack([shown, np.ones(len(at))])
     return nearest
 
 
@@ -190,17 +205,15 @@ def _copies(scene, ghost):
 
 
 def _ground(scene, eye, casting):
-    """Paper with the grid (rows, columns, 3), and the shadow on it (rows, columns), both 0 to 255."""
-    image = Image.new("RGB", (eye.width, eye.height), tuple(int(255 * v) for v in PAPER))
+    """How strong the grid is on the floor (rows, columns), and the shadow (rows, columns), both 0 to 255."""
+    image = Image.new("L", (eye.width, eye.height))
     pen = ImageDraw.Draw(image)
-    ink = channels(PALETTE["grid"])
     pieces, alpha = stage.grid_lines(scene.size, scene.floor)
     pixel, nearness = eye.project(pieces.reshape(-1, 3))
     ahead = (nearness.reshape(-1, 2) < 1e5).all(axis=1)
     for (a, b), strength, shown in zip(pixel.reshape(-1, 2, 2), alpha.mean(axis=1), ahead, strict=True):
         if shown:
-            shade = (1 - strength) * PAPER + strength * ink
-            pen.line([*a, *b], fill=tuple(int(255 * v) for v in shade), width=FINER)
+            pen.line([*a, *b], fill=int(255 * strength), width=FINER)
     mask = np.zeros((eye.height, eye.width), np.uint8)
     if casting and eye.position[2] > scene.floor:
         points, faces = _together(casting)
@@ -211,13 +224,13 @@ def _ground(scene, eye, casting):
 
 
 def _letter(image, scene, eye):
-    """Labels with a halo of paper, drawn last so that nothing hides them.
+    """Labels with a halo of white, drawn last so that nothing hides them.
 
     Words give way to each other, downwards; the letters of axes and the scale of the grid, by not being
     there: the same rule as in the page (actors.js).
     """
-    pen = ImageDraw.Draw(image)
-    halo = tuple(int(255 * v) for v in PAPER)
+    sheet = Image.new("RGBA", image.size, (255, 255, 255, 0))
+    pen = ImageDraw.Draw(sheet)
     worlds = scene.worlds({label["path"] for label in scene.labels})
     taken = []  # x, y and width of what stands already, in pixels
     for label in sorted(scene.labels, key=_is_word, reverse=True):
@@ -237,7 +250,8 @@ def _letter(image, scene, eye):
             continue
         taken.append((x, y, wide))
         ink = f"#{INK.get(label['cls'], PALETTE['bone']):06x}"
-        pen.text((x, y), label["text"], ink, font, anchor="mm", stroke_width=2, stroke_fill=halo)
+        pen.text((x, y), label["text"], ink, font, anchor="mm", stroke_width=2, stroke_fill="white")
+    image.alpha_composite(sheet)
 
 
 def _is_word(label):

@@ -1,6 +1,5 @@
 """What the student wrote in the explorers, without a browser: right, wrong, unfinished, slow, impolite."""
 
-import io
 import json
 import time
 from functools import cache
@@ -8,12 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image
 
 from coursekit import robots, view
 from coursekit.classroom.course import the_course
 from coursekit.classroom.mistakes import Solved
 from coursekit.view import mine, reopened, sketch
+from tests.view.test_picture import on_paper
 
 KR6 = robots.kuka_kr6()
 ABB = robots.abb_irb1200()
@@ -94,8 +93,7 @@ def agrees(words):
 
 def pink(panel):
     """How many pixels of the picture have the student's colour, solid or translucent."""
-    image = Image.open(io.BytesIO(view.png(panel.scene, 480, 320))).convert("RGB")
-    r, g, b = np.moveaxis(np.asarray(image, float), -1, 0)
+    r, g, b = np.moveaxis(on_paper(view.png(panel.scene, 480, 320)), -1, 0)
     return int(((r - g > 20) & (b - g > 10) & (r > b)).sum())
 
 

@@ -8,16 +8,30 @@ import pytest
 from PIL import Image
 
 from coursekit import robots
+from coursekit.view import picture
 from coursekit.view.camera import FOV
+from coursekit.view.paint import PALETTE, channels
 from coursekit.view.picture import png
 from coursekit.view.scene import Scene
 
 CATALOGUE = robots.all()
+LIGHT = [0.2126, 0.7152, 0.0722]  # of red, green, blue
 
 
-def pixels(scene, width=480, height=320, **more):
-    image = Image.open(io.BytesIO(png(scene, width, height, **more)))
-    return np.asarray(image.convert("RGB"), int)
+def linear(part):
+    return np.where(part <= 0.04045, part / 12.92, ((part + 0.055) / 1.055) ** 2.4)
+
+
+def on_paper(drawn, paper="white"):
+    """PNG bytes as the page shows them that has this ground."""
+    image = Image.open(io.BytesIO(drawn)).convert("RGBA")
+    page = Image.new("RGBA", image.size, paper)
+    page.alpha_composite(image)
+    return np.asarray(page.convert("RGB"), int)
+
+
+def pixels(scene, width=480, height=320, paper="white", **more):
+    return on_paper(png(scene, width, height, **more), paper)
 
 
 def orange(picture):
@@ -43,9 +57,8 @@ def test_every_robot_is_in_its_picture(name):
     drawn = png(scene, 640, 430)
     assert drawn.startswith(b"\x89PNG")
     assert 5_000 < len(drawn) < 40_000
-    image = Image.open(io.BytesIO(drawn))
-    assert image.size == (640, 430)
-    body = orange(np.asarray(image.convert("RGB"), int))
+    assert Image.open(io.BytesIO(drawn)).size == (640, 430)
+    body = orange(on_paper(drawn))
     assert 0.004 < body.mean() < 0.3  # the Stanford arm is a thin one
     border = np.concatenate([body[0], body[-1], body[:, 0], body[:, -1]])
     assert not border.any()
@@ -61,6 +74,24 @@ def test_the_same_scene_gives_the_same_bytes():
     assert pictures[0] == pictures[1]
     scene.robots["robot"].theta = [0.1, 0.2]
     assert png(scene, 320, 200) != pictures[0]
+
+
+def test_it_stands_on_a_dark_page_as_on_a_white_one():
+    scene = Scene()
+    scene.robot(robots.kuka_kr6())
+    white, dark = (pixels(scene, paper=paper) for paper in ("white", "#111111"))
+    np.testing.assert_array_equal(dark[0, 0], 0x11)  # the ground is the page's own
+    assert (orange(dark) & orange(white)).sum() > 0.98 * orange(white).sum()
+    foot = tuple(reversed(np.array(project(scene, [0, -0.1, 0.05], 480, 320)).astype(int)))
+    np.testing.assert_allclose(dark[foot], white[foot], atol=4)
+    assert white[foot].max() < 90
+    floor = np.abs(white - 255).max(axis=-1) > 2
+    assert np.median(white[floor & (dark < 60).all(axis=-1)].min(axis=-1)) > 180  # grid and shadow are faint
+
+
+@pytest.mark.parametrize("ink", [*picture.INK.values(), PALETTE["bone"]], ids=hex)
+def test_letters_can_be_read(ink):
+    assert np.dot(LIGHT, linear(channels(ink))) + 0.05 <= 1.05 / 4.5
 
 
 @pytest.mark.parametrize("p", [[0.2, -0.1, 0.5], [-0.3, 0.2, 0.1], [0, 0, 0.8]])

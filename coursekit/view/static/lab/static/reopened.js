@@ -39,8 +39,8 @@
   function revive(node, data, { baseUrl, token }) {
     const line = textOf(data["text/plain"]);
     const place = Object.assign(document.createElement("div"), { className: "ck-saved" });
-    const picture = Object.assign(new Image(), { alt: line, className: "ck-light" });
-    picture.src = `data:image/png;base64,${textOf(data["image/png"])}`;
+    const picture = Object.assign(new Image(), { src: `data:image/png;base64,${textOf(data["image/png"])}` });
+    tell(picture, line);
     const said = Object.assign(document.createElement("p"), { role: "status", textContent: STILL });
     place.append(picture, said);
     node.style.display = "none";
