@@ -83,3 +83,22 @@ class Explorer:
             "[role=slider]", "all => all.map((one) => Number(one.getAttribute('aria-valuenow')))"
         )
         return np.radians(shown[:count])
+
+
+def handle(explorer, label):
+    return explorer.page.get_by_role("button", name=label, exact=True)
+
+
+def centre(explorer, label):
+    box = handle(explorer, label).bounding_box()
+    return np.array([box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
+
+
+def finger(explorer, start, way):
+    """Drag a finger from a place of the page by `way` pixels, and let go."""
+    session = explorer.page.context.new_cdp_session(explorer.page)
+    for kind, share in (("Start", 0), ("Move", 1 / 3), ("Move", 2 / 3), ("Move", 1), ("End", None)):
+        at = [] if share is None else [dict(zip("xy", (start + share * np.array(way)).tolist(), strict=True))]
+        session.send("Input.dispatchTouchEvent", {"type": f"touch{kind}", "touchPoints": at})
+        explorer.page.wait_for_timeout(60)
+    explorer.settle()

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from coursekit import ik, robots, rotations, view
+from tests.browser.explorer import centre, finger, handle
 from tests.browser.test_kinematics import BUSY
 
 pytestmark = pytest.mark.browser
@@ -16,15 +17,6 @@ ON_PAGE = """(p) => {
     const area = document.querySelector(".ck-pane").getBoundingClientRect();
     return [area.left + ((point.x + 1) / 2) * area.width, area.top + ((1 - point.y) / 2) * area.height];
 }"""
-
-
-def handle(explorer, label):
-    return explorer.page.get_by_role("button", name=label, exact=True)
-
-
-def centre(explorer, label):
-    box = handle(explorer, label).bounding_box()
-    return np.array([box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
 
 
 def drag(explorer, start, way, steps=10):
@@ -317,16 +309,6 @@ def test_two_fingers_move_the_picture_and_zoom(touched):
     before = distance()
     swipe(touched, [(60, 60), (90, 60)], [(-40, 0), (150, 0)])
     assert distance() < 0.8 * before
-
-
-def finger(explorer, start, way):
-    """Drag a finger from a place of the page by `way` pixels, and let go."""
-    session = explorer.page.context.new_cdp_session(explorer.page)
-    for kind, share in (("Start", 0), ("Move", 1 / 3), ("Move", 2 / 3), ("Move", 1), ("End", None)):
-        at = [] if share is None else [dict(zip("xy", (start + share * np.array(way)).tolist(), strict=True))]
-        session.send("Input.dispatchTouchEvent", {"type": f"touch{kind}", "touchPoints": at})
-        explorer.page.wait_for_timeout(60)
-    explorer.settle()
 
 
 def test_a_finger_moves_the_target_and_a_guess(opened_by_touch):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from coursekit import ik, robots
+from tests.browser.explorer import centre, finger
 
 pytestmark = pytest.mark.browser
 
@@ -14,12 +15,15 @@ SEEN = """(paths) => {
     const seen = (object) => !object || (object.visible && seen(object.parent));
     return paths.filter((path) => seen(viewer.scene_tree.find(path.split("/").filter((s) => s)).object));
 }"""
-# Whether a ring that stands where the tool's handle is can be taken hold of.
-RING_ON_TOP = """() => {
-    const [ring, tool] = ["ring.x", "tool"].map((kind) => document.querySelector(`.ck-handle.${kind}`));
-    ring.style.transform = tool.style.transform;
-    const { left, top, width, height } = tool.getBoundingClientRect();
-    return document.elementFromPoint(left + width / 2, top + height / 2) === ring;
+# Handles that lie over the tool's.
+OVER_TOOL = """() => {
+    const all = [...document.querySelectorAll(".ck-handle")];
+    const shown = all.filter((one) => one.style.visibility !== "hidden");
+    const box = shown.find((one) => one.matches(".tool")).getBoundingClientRect();
+    return shown.filter((one) => !one.matches(".tool")).filter((one) => {
+        const { left, right, top, bottom } = one.getBoundingClientRect();
+        return left < box.right && right > box.left && top < box.bottom && bottom > box.top;
+    }).map((one) => one.ariaLabel);
 }"""
 LABELS = """() => [...document.querySelectorAll(".ck-label")].filter((l) => l.style.display !== "none")
     .map((l) => l.textContent)"""
@@ -92,9 +96,9 @@ def test_a_screw_shows_its_line_its_lever_and_its_v(opened):
     assert "column 2 of S" not in meaning(explorer)
 
 
-def test_columns_of_the_jacobian_are_arrows_at_the_tool(opened):
+def test_columns_of_the_jacobian_are_arrows_at_the_tool(opened_by_touch):
     panda = robots.franka_panda()
-    explorer = opened("jacobians", panda, "view.explore_jacobians()")
+    explorer = opened_by_touch("jacobians", panda, "view.explore_jacobians()")
     explorer.slide("θ2", ["ArrowRight"] * 3)
     part(explorer, "J₄").hover()
     assert seen(explorer, "/ck/columns/4", "/ck/columns/3", "/ck/robot/4/theta") == [
@@ -106,7 +110,21 @@ def test_columns_of_the_jacobian_are_arrows_at_the_tool(opened):
     T = np.array(explorer.notebook.transform("/ck/columns/4"))
     np.testing.assert_allclose(T[:3, 2], v, atol=1e-9)
     np.testing.assert_allclose(T[:3, 3], panda.fk(theta)[:3, 3], atol=1e-9)
-    assert explorer.page.evaluate(RING_ON_TOP)
+
+    explorer.page.set_viewport_size(
+        {"width": 412, "height": 900}
+    )  # what stands at the tool is near the target's
+    explorer.notebook.command("application:toggle-left-area")
+    explorer.page.evaluate("() => document.querySelector('.ck-panel').scrollIntoView({ block: 'start' })")
+    for name in ("top", "side", "front", "home"):
+        explorer.press(name)
+        explorer.settle()
+        assert explorer.page.evaluate(OVER_TOOL) == [], name
+    start, pose = centre(explorer, "move the tool"), explorer.values("pose")
+    finger(explorer, start, (-30, 25))
+    assert np.linalg.norm(panda.fk(explorer.values())[:3, 3] - panda.fk(theta)[:3, 3]) > 0.03
+    np.testing.assert_array_equal(explorer.values("pose"), pose)
+    assert explorer.notebook.errors == []
 
 
 def test_a_small_figure_chooses_its_solution_and_shows_it(opened):

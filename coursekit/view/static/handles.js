@@ -6,6 +6,14 @@
 
 const ARROW = 88, RING = 48, EDGE = 16; // pixels
 
+// How far a handle gives way, in pixels: to each that it would lie under, by the shortest way.
+const asideOf = (x, y, wide, others) => others.reduce(([dx, dy], other) => {
+  const [right, down] = [x + dx - other.x, y + dy - other.y];
+  const [across, along] = [(wide + other.wide) / 2 - Math.abs(right), 26 - Math.abs(down)];
+  if (across <= 0 || along <= 0) return [dx, dy];
+  return across < along ? [dx + (right < 0 ? -across : across), dy] : [dx, dy + (down < 0 ? -along : along)];
+}, [0, 0]);
+
 // taken(what, isPoint): a hand has moved "theta" or the target at a path; redraw(): what stands where has changed
 function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, redraw }) {
   const layer = element("div", { class: "ck-handles", role: "group", "aria-label": "handles in the picture" });
@@ -120,11 +128,7 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
         goal = goal.map((x, i) => x + way.toArray()[i]);
         put(goal, true);
       },
-      key(steps, live, axis = 0) {
-        const there = place();
-        there[axis] += 0.01 * steps;
-        put(there, live);
-      },
+      key: (steps, live, axis = 0) => put(place().map((x, i) => (i === axis ? x + 0.01 * steps : x)), live),
       end() {
         goal = null;
         put(null, false);
@@ -185,7 +189,7 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
       grip.key(sign * (event.shiftKey ? 0.1 : 1), event.repeat, axis);
     });
     layer.append(node);
-    return { node, line, grip };
+    return { node, line, grip, aside: [0, 0] };
   };
 
   const rebuild = () => {
@@ -259,12 +263,14 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
     draw() { // gives where they stand
       const { width, height } = renderer.size(), shownAt = [];
       lines.setAttribute("viewBox", `0 0 ${width} ${height}`);
-      for (const { node, line, grip } of grips) {
-        const [x, y, z] = project(grip.place());
-        const ends = grip.path().map(project);
+      for (const one of grips) {
+        const { node, line, grip } = one, [left, top, z] = project(grip.place()), ends = grip.path().map(project);
+        const wide = 12 + 8 * grip.text.length, held = !viewer.controls.enabled; // nothing gives way under a hand
+        if (grip.kind === "tool" && !held) one.aside = asideOf(left, top, wide, shownAt);
+        const [x, y] = [left + one.aside[0], top + one.aside[1]];
         const turned = ends.length === 2 && Math.hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]) < 18; // towards us
         const shown = z < 1 && !turned && x > 0 && y > 0 && x < width && y < height;
-        if (shown) shownAt.push({ x, y, wide: 10 + 7 * grip.text.length, high: 19 });
+        if (shown) shownAt.push({ x, y, wide, high: 19 });
         for (const part of [node, line]) part.style.visibility = shown ? "" : "hidden";
         node.style.transform = `translate(-50%, -50%) translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
         line.setAttribute("points", ends.map(([px, py]) => `${px.toFixed(1)},${py.toFixed(1)}`).join(" "));
