@@ -96,6 +96,7 @@ POSES_SEEN = """() => {
     stage.afterFrame.push(() => { poses.add(link.matrixWorld.elements.join()); frames += 1; });
 }"""
 
+READS = 2000  # milliseconds, at least, in which one reads what stands between the imports and the first explorer
 # When a cell is run, when its stored picture and its first frame are there, and the long tasks.
 FIRST = """window.first = { tasks: [] };
 new PerformanceObserver((list) => first.tasks.push(...list.getEntries()))
@@ -175,6 +176,7 @@ def first_explorer(lab, browser, name, pages):
         notebook.page.add_init_script(FIRST)
         notebook.open(lab.write(f"{name}{k}.ipynb", "from coursekit import view", f"view.{name}()"))
         notebook.kernel("exec('from coursekit import view')")
+        notebook.page.wait_for_timeout(READS)
         notebook.page.evaluate(RUN_LAST)
         notebook.wait_view()
         times.append(notebook.page.evaluate(FIRST_TIMES))

@@ -47,8 +47,7 @@ export function describe({ name, screws, M }, theta) {
     return (tie ? (2 * Math.round(5 * near)) / 10 : near).toFixed(1).replace(/^-(0\.0)$/, "$1");
   };
   const shown = theta.map((q, k) => round(q * (slides[k] ? 1000 : 180 / Math.PI)));
-  const each = shown.map((x, k) => `${x} ${slides[k] ? "mm" : "deg"}`);
-  const joints = slides.includes(true) ? `(${each.join(", ")})` : `(${shown.join(", ")}) deg`;
+  const joints = slides.includes(true) ? `(${shown.map((x, k) => `${x} ${slides[k] ? "mm" : "deg"}`).join(", ")})` : `(${shown.join(", ")}) deg`;
   const tool = product(displacements(screws, theta).at(-1), M).slice(12, 15);
   return `${name}: joints ${joints}; tool at (${tool.map((x) => round(1000 * x)).join(", ")}) mm`;
 }

@@ -8,8 +8,7 @@ function makePlayer({ show, report, wake }) {
   const play = operated("button", { type: "button", class: "ck-button ck-play" }, "play");
   const back = operated("button", { type: "button", class: "ck-button", title: "to the first pose" }, "restart");
   const scrub = operated("input", { type: "range", class: "ck-scrub", min: 0, step: 1, "aria-label": "pose along the motion" });
-  const speed = operated("select", { class: "ck-button", "aria-label": "playing speed" });
-  for (const factor of SPEEDS) speed.append(element("option", { value: factor }, `${factor} x`));
+  const speed = operated("select", { class: "ck-button", "aria-label": "playing speed" }, ...SPEEDS.map((factor) => element("option", { value: factor }, `${factor} x`)));
   const loop = operated("input", { type: "checkbox" });
   const count = element("span", { class: "ck-count" });
   const bar = operated("div", { class: "ck-player", role: "group", "aria-label": "motion" });
@@ -36,8 +35,7 @@ function makePlayer({ show, report, wake }) {
   };
   const setPlaying = (on) => {
     mark(on);
-    last = null;
-    due = 0;
+    [last, due] = [null, 0];
     if (on) wake();
     else if (motion) report(frame, false);
   };

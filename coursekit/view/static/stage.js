@@ -169,9 +169,7 @@ function release(object) {
 function plainMaterial(THREE, material) {
   if (!material.isMeshStandardMaterial) return material;
   const plain = new THREE.MeshPhongMaterial({ shininess: 30 });
-  for (const name of ["transparent", "opacity", "depthTest", "depthWrite", "side", "vertexColors", "emissiveIntensity"]) {
-    plain[name] = material[name];
-  }
+  for (const name of ["transparent", "opacity", "depthTest", "depthWrite", "side", "vertexColors", "emissiveIntensity"]) plain[name] = material[name];
   plain.color.copy(material.color);
   plain.emissive.copy(material.emissive);
   return plain;
