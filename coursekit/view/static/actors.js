@@ -33,7 +33,7 @@ function makeLabels(THREE, viewer, pane, renderer) {
         const object = viewer.scene_tree.find(path).object;
         point.set(...pos).applyMatrix4(object.matrixWorld).project(viewer.camera);
         const across = ((point.x + 1) / 2) * width, inside = Math.max(wide / 2, Math.min(width - wide / 2, across));
-        const x = Math.abs(point.x) < 1 ? inside : across; // what is in the picture has all of its name there
+        const x = Math.abs(inside - across) < wide ? inside : across; // what is seen of a name is all of it
         let y = ((1 - point.y) / 2) * height;
         // words give way to each other, downwards; the letters of axes and the scale of the grid, by not being there
         const isTaken = () => taken.some((other) => Math.abs(other.x - x) < (other.wide + wide) / 2 && Math.abs(other.y - y) < (other.high || 13));
