@@ -64,8 +64,8 @@ def diagnosis(row: dict, readable: bool = True) -> classroom.Diagnosis:
     return classroom.diagnose(row["exercise"], names[row["exercise"]])
 
 
-@cache
-def judged(file: Path, readable: bool = True) -> list[tuple[dict, classroom.Diagnosis]]:
+@cache  # which takes an argument left out and its default for two things
+def judged(file: Path, readable: bool) -> list[tuple[dict, classroom.Diagnosis]]:
     return [(row, diagnosis(row, readable)) for row in json.loads(file.read_text("utf-8"))]
 
 
@@ -84,7 +84,7 @@ def test_no_wrong_answer_is_accepted_and_nearly_all_are_helped(file, readable):
 def test_a_slip_is_told_in_the_words_that_it_was_given():
     missed = [
         f"{row['exercise']}, {row['label']}: {found.text}"
-        for row, found in judged(HERE / "wrong" / "slips.json")
+        for row, found in judged(HERE / "wrong" / "slips.json", True)
         if row["say"] not in " ".join(found.text.split())
     ]
     assert not missed, "\n\n".join(missed)
@@ -93,7 +93,7 @@ def test_a_slip_is_told_in_the_words_that_it_was_given():
 @pytest.mark.parametrize("file", FILES, ids=lambda path: path.stem)
 def test_the_first_sentence_is_short(file):
     """Text first, no wall of numbers; what is asked for later is another matter."""
-    for row, found in judged(file):
+    for row, found in judged(file, True):
         first = found.text.split("\n  Look again")[0].split("\n  Example")[0]
         assert len(first.splitlines()) <= 8, f"{row['exercise']}, {row['label']}: {found.text}"
 
