@@ -265,6 +265,12 @@ def a_cell_that_awaits(notebook):
     return cell_of_fk(notebook, source=f"import asyncio\n\nawait asyncio.sleep(0)\n\n\n{source}")
 
 
+@kind(FULL)
+def tidied_up_in_the_end(notebook):
+    """All checks were passed before; nothing that was written is gone."""
+    return with_cell(notebook, "del np")
+
+
 @kind(NO_FK, "the line `fk = fk(")
 def a_value_with_the_name_of_the_function(notebook):
     return with_cell(notebook, "fk = fk(np.array([0.1, 0.2]), 1, 1)")
