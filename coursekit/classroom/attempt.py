@@ -200,6 +200,8 @@ def _explain(exercise: Exercise, function: Callable, error: Exception, arguments
         pass
     said = re.sub(r", with gufunc signature \S+", "", str(error).partition("\n")[0].strip())
     plain = in_plain_words(said)
+    if plain:  # which says the rest
+        said = re.split(r"\. Use|, and the inputs", re.sub(r"Input operand .*\((.*)\)$", r"\1", said))[0]
     said = shorten(said, 100 if plain else 200, placeholder=" ...")
     text = f"{type(error).__name__}: {said}"
     frame, at = _place(error)
@@ -208,7 +210,8 @@ def _explain(exercise: Exercise, function: Callable, error: Exception, arguments
     line = at - frame.f_code.co_firstlineno + 1
     if frame.f_code is not getattr(function, "__code__", None) and (call := call_from(function, error)):
         # a function that it calls raises: what it was called with is the matter
-        frame, at, text = *call, f"{text}, in {frame.f_code.co_name}"
+        inner = frame.f_code.co_name
+        frame, at, text = *call, text if inner.startswith("<") else f"{text}, in {inner}"
         line = at - frame.f_code.co_firstlineno + 1
     text = f"line {line} of {frame.f_code.co_name} raises {text}{_source_line(frame.f_code, at)}"
     if told := _variables(frame, at):

@@ -9,7 +9,7 @@ WORDS = {
     "matmul: Input operand": "in A @ B, A must have as many columns as B has rows",
     "solve1: Input operand": "in solve(A, b), b must have as many entries as A has rows",
     "could not be broadcast together": "entry by entry, shapes must be equal; x[:, None] is a column",
-    "could not broadcast input": "what is stored must have the shape of the place it is stored in",
+    "could not broadcast input": "what is stored must fit the place it is stored in",
     "is out of bounds": "numpy counts from 0: the last index is the size minus 1; examples differ in size",
     "values to unpack": "a, b = x takes the rows of x, one for each name; x.T has its columns as rows",
     "Cannot cast ufunc": "an array of whole numbers takes no decimals: x = x / 2, not x /= 2",
