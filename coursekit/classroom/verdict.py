@@ -13,11 +13,8 @@ The grader judges answers to hidden inputs and has no function: it tells nothing
 
 from __future__ import annotations
 
-import dis
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import partial
-from types import CodeType
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,7 +22,7 @@ from numpy.typing import ArrayLike
 from . import compare
 from .already import not_a_pose, what_is_right
 from .attempt import Attempt, line_of_nan
-from .attempt import attempt as call
+from .coded import another_word, ignored, remembers, with_decimals
 from .exercise import NONE, Exercise, fits, misshapen, thaw
 from .library import permitted
 from .plain import in_plain_words
@@ -101,9 +98,9 @@ def verdict(
     answers = [attempt.parts for attempt in attempts]
     found = _cannot_be_judged(exercise, examples, attempts)
     good = [not found and example.agrees(parts) for example, parts in zip(examples, answers, strict=True)]
-    if function and not all(good) and (text := _remembers(exercise, function, examples, attempts)):
+    if function and not all(good) and (text := remembers(exercise, function, examples, attempts)):
         return Verdict("named", text, step="remembers", example=good.index(False))
-    if function and not all(good) and (text := _another_word(exercise, function, examples, attempts)):
+    if function and not all(good) and (text := another_word(exercise, function, examples, attempts)):
         return Verdict("named", text, step="word", example=good.index(False))
     if found:
         hint = None if found.step == "changed" else _named(exercise, examples, answers)
@@ -113,14 +110,27 @@ def verdict(
     if all(good):
         return _right(examples, attempts, allowed)
     first = good.index(False)
-    if hint := _named(exercise, examples, answers):
+    hint = _named(exercise, examples, answers)
+    if not hint and function:
+        examples, attempts, whose = with_decimals(exercise, function, examples, attempts)
+        if whose:
+            answers = [attempt.parts for attempt in attempts]
+            good = [example.agrees(parts) for example, parts in zip(examples, answers, strict=True)]
+            hint = _named(exercise, examples, answers)
+        if all(good):
+            text = (
+                f"`{whose}` may hold whole numbers, and then a copy of it does, too: decimals stored in it"
+                f" are cut off. np.array({whose}, float) holds decimals"
+            )
+            return Verdict("named", text, step="whole", example=first)
+    if hint:
         return Verdict("named", hint.text, step=hint.key, example=first)
     if text := _other_length(exercise, examples, answers):
         return Verdict("misfit", text, step="length", example=first)
     if any(good) and (found := _not_finite(exercise, examples, answers, function, good)):
         return found
     also = _already_and_residual(exercise, examples, answers, good, function)
-    if function and (text := _ignored(exercise, function)):
+    if function and (text := ignored(exercise, function)):
         return Verdict("named", text, also, "ignored", first)
     if text := done_to_the_right_answer(exercise, examples, answers):
         return Verdict("named", text, step="done", example=first)
@@ -244,17 +254,19 @@ def _rounded(exercise: Exercise, examples: list[Example], answers: list[Parts]) 
 def _named(exercise: Exercise, examples: list[Example], answers: list[Parts]):
     """A mistake is recognised by all examples at once: on some of them it may happen to be right.
 
-    Where the student's function raises, the others must do: at least three of them, and most; and one of
-    them must be wrong, or the mistake is a guess.
+    Where the student's function raises or gives NaN, the others must do: at least three of them, and most;
+    and one of them must be wrong, or the mistake is a guess.
     """
     known = [(e, _rows(exercise, parts)) for e, parts in zip(examples, answers, strict=True) if parts]
-    if len(known) < max(3, len(examples) / 2) and len(known) < len(examples):
-        return None
-    if all(e.agrees(parts) for e, parts in known):
-        return None
-    for hint in exercise.hints:
-        if all(hint.key in e.wrong and e.agrees(parts, e.wrong[hint.key]) for e, parts in known):
-            return hint
+    finite = [(e, parts) for e, parts in known if all(np.isfinite(part).all() for part in parts)]
+    for some in (known, finite):
+        if len(some) < max(3, len(examples) / 2) and len(some) < len(examples):
+            return None
+        if all(e.agrees(parts) for e, parts in some):
+            return None
+        for hint in exercise.hints:
+            if all(hint.key in e.wrong and e.agrees(parts, e.wrong[hint.key]) for e, parts in some):
+                return hint
     return None
 
 
@@ -266,70 +278,7 @@ def _rows(exercise: Exercise, parts: Parts) -> Parts:
     )
 
 
-# ---- 4 and 5: with the code
-
-
-def _remembers(exercise: Exercise, function: Callable, examples: list[Example], attempts: list) -> str:
-    """'' or that a second call with the same arguments gives another answer than the first."""
-    first = next((k for k, tried in enumerate(attempts) if tried.parts), None)
-    if first is None:
-        return ""
-    again = call(exercise, function, examples[first].arguments)
-    alike = len(again.parts) == len(attempts[first].parts) and all(
-        map(partial(np.array_equal, equal_nan=True), again.parts, attempts[first].parts)
-    )
-    if alike:
-        return ""
-    return (
-        "called twice with the same arguments, it gives two answers: it draws random numbers, or something"
-        " outlives the call, such as a list or an array made outside the function, or in its `def` line"
-    )
-
-
-def _ignored(exercise: Exercise, function: Callable) -> str:
-    code = getattr(function, "__code__", None)
-    if not isinstance(code, CodeType):
-        return ""
-    for name, wanted in zip(code.co_varnames[: code.co_argcount], exercise.arguments, strict=False):
-        uses = [i.opname for i in dis.get_instructions(code) if name == i.argval or _holds(i.argval, name)]
-        uses = [use for use in uses if not use.startswith(("MAKE_CELL", "COPY_FREE"))]
-        if not uses:
-            return f"it does not use its argument `{wanted}`"
-        if uses[0].startswith("STORE"):
-            return f"it gives `{wanted}` a value of its own before it looks at the one that comes"
-    return ""
-
-
-def _another_word(exercise: Exercise, function: Callable, examples: list[Example], attempts: list) -> str:
-    """ "kind is "revolute" or "prismatic", ...": the code asks for words that never come, as "R" and "P".
-
-    Told only of a word with which an answer that is wrong becomes right.
-    """
-    code = getattr(function, "__code__", None)
-    if not isinstance(code, CodeType):
-        return ""
-    mine = [c for c in code.co_consts if isinstance(c, str) and c and c != function.__doc__]
-    wrong = [e for e, before in zip(examples, attempts, strict=True) if not _is_right(exercise, e, before)]
-    for k, name in enumerate(exercise.arguments):
-        words = list(dict.fromkeys(str(e.arguments[k]) for e in examples if isinstance(e.arguments[k], str)))
-        if not words or any(part in word for part in mine for word in words):
-            continue
-        for word in mine:
-            for example in wrong:
-                given = [*example.arguments[:k], word, *example.arguments[k + 1 :]]
-                if _is_right(exercise, example, call(exercise, function, given)):
-                    known = " or ".join(f'"{w}"' for w in words)
-                    return f'`{name}` is {known}, letter for letter: "{word}" in your code is neither'
-    return ""
-
-
-def _is_right(exercise: Exercise, example: Example, tried: Attempt) -> bool:
-    whole = tried.parts and not tried.fault and not misshapen(exercise, list(tried.parts))
-    return bool(whole) and example.agrees(tried.parts)
-
-
-def _holds(value: object, name: str) -> bool:
-    return isinstance(value, tuple) and name in value
+# ---- 5: where the code is wrong
 
 
 def _repaired(exercise: Exercise, function, examples, good, attempts) -> Found | None:

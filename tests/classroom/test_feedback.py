@@ -96,6 +96,7 @@ def test_the_first_sentence_is_short(file):
     for row, found in judged(file, True):
         first = found.text.split("\n  Look again")[0].split("\n  Example")[0]
         assert len(first.splitlines()) <= 8, f"{row['exercise']}, {row['label']}: {found.text}"
+        assert len(found.say.split()) <= 60, f"{row['exercise']}, {row['label']}: {found.say}"
 
 
 ONE_BEND = """

@@ -123,7 +123,12 @@ NEXT_ON_BRANCH = Exercise(
         Hint("one_turn", "one turn up or down is not always enough: count them, (last - solutions) / (2 pi)"),
         Hint("rounded_down", "round to the nearest whole turn: rounding down leaves up to a turn"),
         Hint("mixed", "one row for all joints: yours takes each joint from another solution"),
-        Hint("first_row", "the first solution need not be the one that goes on"),
+        Hint(
+            "first_row",
+            "the first solution need not be the one that goes on (`norm` without axis=1, or `return` inside"
+            " the loop?)",
+        ),
+        Hint("last_row", "you end with the last solution: is the smallest distance remembered?"),
         Hint("joints_alike", "every joint may need its own number of turns; yours turns all joints alike"),
     ),
 )

@@ -49,6 +49,11 @@ EXERCISES = [
             Hint("along_z", "this tool lies along the x axis of its own frame, not along z"),
             Hint("space_x", "you stepped along x of the space frame; the tool turns with the target"),
             Hint("row", "you took the first row of R; the x axis of the tool is a column"),
+            Hint(
+                "direction",
+                "this is the step back alone, turned: it starts at the origin of the tool frame (the fourth"
+                " number of a point is 1)",
+            ),
         ),
     ),
     Exercise(
@@ -120,6 +125,7 @@ EXERCISES = [
                 "one_only", "that is one of the two solutions: the elbow can lie on either side of the line"
             ),
             Hint("mixed", "theta2 of one solution stands beside theta3 of the other"),
+            Hint("beta", "theta3 turns by pi - beta: beta is an angle of the triangle, pi if stretched"),
         ),
     ),
     Exercise(
@@ -157,6 +163,7 @@ EXERCISES = [
             ),
             Hint("one_only", "that is one of the two solutions: the wrist can bend to the other side"),
             Hint("half_flip", "with theta5 negative, joints 4 and 6 have to turn by half a turn as well"),
+            Hint("degrees", "half a turn is pi, not 180: the angles are in radians"),
         ),
     ),
     Exercise(
@@ -181,7 +188,8 @@ EXERCISES = [
         hints=(
             Hint(
                 "front_only",
-                "these reach to the front; joint 1 can turn round, the arm then bends backwards over axis 1",
+                "these reach to the front; joint 1 can turn round, the arm then bends backwards over axis 1"
+                " (if you have that, does `return` stand inside the loop?)",
             ),
             Hint("axis_1", "axis 1 points down: a positive theta1 turns from y to x"),
             Hint(
@@ -265,6 +273,12 @@ EXERCISES = [
             Hint("difference", "the difference of two matrices is not a twist: take the logarithm"),
             Hint("transpose", "that is J_b transposed; Newton's step needs the pseudo-inverse"),
             Hint("backwards", "the step leads away from the target: the error goes from here to there"),
+            Hint("positions", "the lower half of e is no difference of positions: take log6 of T_sb^-1 T_sd"),
+            Hint(
+                "positions_in_tool",
+                "v is the way to the target only where the tool does not turn: take log6 of T_sb^-1 T_sd",
+            ),
+            Hint("two_logs", "logarithms of poses do not subtract: multiply the poses first, then take one"),
         ),
     ),
     Exercise(

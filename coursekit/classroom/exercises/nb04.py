@@ -200,6 +200,10 @@ EXERCISES = [
             Hint("arm_only", "this is the arm's block alone: the wrist has its share in det J"),
             Hint("two_products", "the lower right block counts as 0: the product with its determinant goes"),
             Hint("whole", "that is the determinant of the whole J: use the two 3 x 3 blocks"),
+            Hint(
+                "two_rows",
+                "your blocks are 2 x 2: numpy counts from 0, and a slice ends before its second number",
+            ),
         ),
     ),
     Exercise(
@@ -281,7 +285,12 @@ EXERCISES = [
             Hint("no_a1", "the upper arm begins at a1, not at axis 1"),
             Hint("no_d1", "the shoulder stands at the height d1: subtract it from p_z"),
             Hint("one_sign", "look at the signs of d4 cos(theta_3): they differ in the two rows"),
-            Hint("transposed", "your matrix is transposed: the minus of d4 cos(theta_3) stands lower left"),
+            Hint(
+                "transposed",
+                "your matrix is transposed, the minus of d4 cos(theta_3) stands lower left; or you"
+                " multiplied, A @ b, where A x = b is to be solved",
+            ),
+            Hint("a1_twice", "a1 is taken off twice: r begins at axis 1, r - a1 at the shoulder"),
             Hint(
                 "front_only",
                 "bent backwards over axis 1 the arm reaches to a negative distance: use theta1, not a length",
@@ -291,6 +300,7 @@ EXERCISES = [
                 "one_quadrant",
                 "an arccos or arcsin of one unknown knows half of the circle: use both unknowns",
             ),
+            Hint("arcsin", "an arcsin of one unknown knows half of the circle: use both unknowns"),
         ),
     ),
     Exercise(

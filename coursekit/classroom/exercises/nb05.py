@@ -8,6 +8,7 @@ from coursekit.classroom.exercise import Block, Edge, Exercise, Hint
 from coursekit.classroom.exercises import _jacobians as draws
 from coursekit.classroom.exercises import _nb05 as residuals
 from coursekit.classroom.exercises import looks
+from coursekit.classroom.exercises._nb05_run import DLS_LOOP
 
 # What the student's functions may call from coursekit.kinematics: what notebooks 01 to 03 had them write or
 # told them to use, and what this one tells them to use.
@@ -68,11 +69,6 @@ def _same_power(f, args, tau):
     J, T, moment, force = args
     turns = np.kron(np.eye(2), T[:3, :3])
     return bool(np.allclose(tau, np.concatenate([moment, force]) @ turns @ J, atol=1e-6))
-
-
-def _starts_at_theta(f, args, rows):
-    """The first row is where the run begins."""
-    return bool(np.allclose(rows[0], args[2], atol=1e-12))
 
 
 EXERCISES = [
@@ -138,6 +134,7 @@ EXERCISES = [
             Hint("next_axis", "column i belongs to axis i; you took the axis after it"),
             Hint("from_base", "the lever goes from the axis to the tool, not from the base to the tool"),
             Hint("space", "that v belongs to the point at the base origin (J_s), not to the tool"),
+            Hint("entrywise", "`*` multiplies entry by entry: v is the cross product w x (p - o)"),
         ),
     ),
     Exercise(
@@ -182,6 +179,8 @@ EXERCISES = [
             Hint(
                 "euler", "differences of Euler angles are not an angular velocity: take the rotation between"
             ),
+            Hint("no_log", "R_+ - R_- is no rotation: omega comes from the one between them, R_+ R_-^T"),
+            Hint("two_logs", "logarithms of rotations do not subtract: take the one of R_+ R_-^T"),
         ),
     ),
     Exercise(
@@ -281,6 +280,9 @@ EXERCISES = [
             Hint("turned_by_theta1", "frame E turns with link 2: by theta_1 + theta_2, not by theta_1 alone"),
             Hint("link2_alone", "link 2 points along theta_1 + theta_2; you took theta_2 for the sum"),
             Hint("rate2_alone", "link 2 turns with both rates: joint 1 carries it along"),
+            Hint("sines_added", "s12 is the sine of the sum, sin(theta_1 + theta_2), not a sum of sines"),
+            Hint("sines_multiplied", "s12 is the sine of the sum, sin(theta_1 + theta_2), not a product"),
+            Hint("on_its_side", "your J lies on its side: a row for each of v_x and v_y, a column per joint"),
         ),
     ),
     Exercise(
@@ -353,45 +355,5 @@ EXERCISES = [
             Hint("against", "these torques give way: the joints must push as the tool is to push"),
         ),
     ),
-    Exercise(
-        "dls_loop(robot, T_sd, theta, k, steps)",
-        look=looks.end_of_run,
-        points=3,
-        draw=draws.run,
-        shape=(None, None),
-        unit="rad",
-        laws=(("the first row is the start", _starts_at_theta),),
-        samples=3,
-        n=12,
-        timeout=20.0,
-        usual="for an ordinary start",
-        blocks=(Block("the start", np.s_[0]), Block("the first step", np.s_[1]), Block("the end", np.s_[-1])),
-        edges=(
-            Edge("for one step", lambda rng: draws.run(rng, steps=1)),
-            Edge("for an arm with seven joints", lambda rng: draws.run(rng, "franka_panda")),
-            Edge("where the arm is there already", lambda rng: draws.run(rng, off=0.0, steps=2)),
-            Edge("where the arm is nearly there", lambda rng: draws.run(rng, off=2e-4, steps=3)),
-            Edge("for a k of 1", lambda rng: draws.run(rng, k=1.0)),
-            Edge("from a singular start", draws.run_from_a_singular_start),
-            Edge("where a joint passes half a turn", draws.run_past_half_a_turn),
-            Edge("for whole numbers", draws.run_of_whole_numbers),
-        ),
-        residual=residuals.target_missed,
-        hints=(
-            Hint("space_error", "e must lie along the tool, as J_b does: log(T_sb^-1 T_sd)"),
-            Hint(
-                "backwards",
-                "your steps lead away from the target: look at the sign, and at which pose e inverts",
-            ),
-            Hint("frozen", "J_b has to be computed anew in every step: it changes with theta"),
-            Hint("one_error", "e has to be computed anew in every step: the arm has moved"),
-            Hint("from_the_start", "every step must begin where the last one ended"),
-            Hint(
-                "space_jacobian",
-                "e is seen from the tool, so it wants J_b: J_s gives twists of another point",
-            ),
-            Hint("other_jacobian", "e is a body twist: it wants J_b, not the Jacobian along the base"),
-            Hint("undamped", "k makes no difference to your run: these are Newton's steps"),
-        ),
-    ),
+    DLS_LOOP,
 ]

@@ -86,6 +86,8 @@ EXERCISES = [
                 "last_copied",
                 "the last y is a copy: take the step before it again, but the normal at the last point",
             ),
+            Hint("pose_copied", "the last pose is a copy: it belongs at the last point, with its normal"),
+            Hint("round_the_end", "the last point has no next one: yours goes round to the first (np.roll?)"),
         ),
     ),
     Exercise(
@@ -140,6 +142,9 @@ EXERCISES = [
             ),
             Hint(
                 "turned_back", "this is the inverse rotation: the differences are taken the other way round"
+            ),
+            Hint(
+                "quarter", "a quarter of a line is q times its largest number: divide the line by its length"
             ),
         ),
         laws=(("a unit quaternion has length 1", _unit),),
@@ -212,7 +217,8 @@ EXERCISES = [
         hints=(
             Hint(
                 "no_turns",
-                "whole turns are not tried: -174.72 degrees and 185.28 degrees are one place of the joint",
+                "whole turns, 2 pi in radians, are not tried: -174.72 and 185.28 degrees are one place of the"
+                " joint",
             ),
             Hint(
                 "wrapped",
@@ -275,12 +281,14 @@ EXERCISES = [
             ),
             Hint("last_joint", "you look at the last joint alone: any joint may set the speed"),
             Hint("one_bound", "one bound for all joints: each joint has its own entry of v_max"),
+            Hint("largest_bound", "the largest bound for all joints: each joint has its own entry of v_max"),
             Hint(
                 "mean",
                 "a mean of the rates for their maximum: somewhere on the path a joint turns faster than that",
             ),
             Hint("one_step", "the steps of this path are not alike: divide each difference by its own step"),
             Hint("signed", "a joint that turns backwards counts, too: compare sizes"),
+            Hint("signed_speeds", "a joint that turns backwards has no negative speed limit: take sizes"),
         ),
         laws=(
             ("with half the bounds the tool may go half as fast", _half_as_fast),
@@ -366,6 +374,7 @@ EXERCISES = [
             Hint("backwards", "at t = 0 it has to be R_0, at t = 1 R_1"),
             Hint("vectors", "products k theta do not add: take the product of the turn between, R_0^T R_1"),
             Hint("long_way", "that is the long way round: q and -q are one attitude, take the nearer"),
+            Hint("scaled", "t times a rotation is none: t belongs to the angle, inside the exponential"),
         ),
         laws=(("the way back is the same way", _there_and_back),),
     ),

@@ -148,6 +148,23 @@ def loop_with_the_space_jacobian(robot, T_sd, rows, k):
     return rows[-1] + right.dls_step(robot.jacobian_space(rows[-1]), _error(robot, T_sd, rows[-1]), k)
 
 
+def loop_with_both_inverted(robot, T_sd, rows, k):
+    return _next(robot, lie.log6(lie.inverse(robot.fk(rows[-1]) @ T_sd)), rows, k)
+
+
+def loop_of_steps(robot, T_sd, theta, k, steps):
+    rows = right.dls_loop(robot, T_sd, theta, k, steps)
+    return np.vstack([rows[:1], np.diff(rows, axis=0)])
+
+
+def loop_of_one_step(robot, T_sd, theta, k, steps):
+    return loop_of_steps(robot, T_sd, theta, k, steps)[[0] + [1] * steps]
+
+
+def loop_from_zero(robot, T_sd, theta, k, steps):
+    return right.dls_loop(robot, T_sd, np.zeros(len(theta)), k, steps)
+
+
 def loop_undamped(robot, T_sd, rows, k):
     return rows[-1] + np.linalg.pinv(robot.jacobian_body(rows[-1])) @ _error(robot, T_sd, rows[-1])
 
@@ -182,5 +199,9 @@ WRONG = {
         "space_jacobian": _loop(loop_with_the_space_jacobian),
         "other_jacobian": _loop(loop_with_the_other_jacobian),
         "undamped": _loop(loop_undamped),
+        "inverse_of_both": _loop(loop_with_both_inverted),
+        "steps_stored": loop_of_steps,
+        "one_step_stored": loop_of_one_step,
+        "from_zero": loop_from_zero,
     },
 }

@@ -51,6 +51,10 @@ def branch_first_row(last, solutions):
     return _turned(last, solutions)[0]
 
 
+def branch_last_row(last, solutions):
+    return _turned(last, solutions)[-1]
+
+
 def branch_all_joints_alike(last, solutions):
     whole = np.round((last - solutions).mean(axis=1, keepdims=True) / TURN)
     turned = solutions + TURN * whole
@@ -68,5 +72,6 @@ WRONG = {
         "mixed": branch_mixed,
         "first_row": branch_first_row,
         "joints_alike": branch_all_joints_alike,
+        "last_row": branch_last_row,
     },
 }

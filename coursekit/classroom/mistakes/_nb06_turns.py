@@ -107,6 +107,10 @@ def slerp_of_vectors(R_0, R_1, t):
     return lie.exp3((1 - t) * right.angle_axis(R_0) + t * right.angle_axis(R_1))
 
 
+def slerp_scaled(R_0, R_1, t):
+    return t * R_1
+
+
 def slerp_the_long_way(R_0, R_1, t):
     """Between quaternions with w >= 0, whichever way they lie."""
     a, b = rotations.quaternion(R_0), rotations.quaternion(R_1)
@@ -138,5 +142,6 @@ WRONG = {
         "backwards": slerp_backwards,
         "vectors": slerp_of_vectors,
         "long_way": slerp_the_long_way,
+        "scaled": slerp_scaled,
     },
 }

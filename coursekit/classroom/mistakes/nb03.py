@@ -34,6 +34,10 @@ def centre_along_a_row(T_sd, tool):
     return T_sd[:3, 3] - tool * T_sd[0, :3]
 
 
+def centre_as_a_direction(T_sd, tool):
+    return -tool * T_sd[:3, 0]
+
+
 # -- subproblem1
 
 
@@ -99,6 +103,12 @@ def elbow_mixed(r, z, lengths):
     return np.column_stack([solutions[:, 0], solutions[::-1, 1]])
 
 
+def elbow_with_beta(r, z, lengths):
+    psi = np.arctan2(lengths[3], lengths[4])
+    theta2, theta3 = right.elbow_solutions(r, z, lengths).T
+    return np.column_stack([theta2, np.sign(theta3 - psi) * np.pi - theta3 + 2 * psi])
+
+
 # -- wrist_angles
 
 
@@ -131,6 +141,11 @@ def _wrist_of(R, change):
 def wrist_half_flipped(R):
     t4, t5, t6 = right.wrist_angles(R)[0]
     return np.array([[t4, t5, t6], [t4, -t5, t6]])
+
+
+def wrist_with_180(R):
+    t4, t5, t6 = right.wrist_angles(R)[0]
+    return np.array([[t4, t5, t6], [t4 + 180, -t5, t6 + 180]])
 
 
 # -- subproblem2 and subproblem3
@@ -263,6 +278,12 @@ def step_backwards(J_b, T_sb, T_sd):
     return -right.newton_step(J_b, T_sb, T_sd)
 
 
+def _step_by_positions(J_b, T_sb, T_sd, seen):
+    """The lower half of e is the way between the two origins, along other axes."""
+    turn = lie.log3(T_sb[:3, :3].T @ T_sd[:3, :3])
+    return np.linalg.pinv(J_b) @ np.concatenate([turn, seen @ (T_sd[:3, 3] - T_sb[:3, 3])])
+
+
 WRONG = {
     "wrist_centre": {
         "inverse": centre_by_inverse,
@@ -270,6 +291,7 @@ WRONG = {
         "along_z": centre_along_z,
         "space_x": centre_along_space_x,
         "row": centre_along_a_row,
+        "direction": centre_as_a_direction,
     },
     "subproblem1": {
         "swapped": turn_swapped,
@@ -286,6 +308,7 @@ WRONG = {
         "plus_square": elbow_plus_square,
         "one_only": elbow_one_only,
         "mixed": elbow_mixed,
+        "beta": elbow_with_beta,
     },
     "wrist_angles": {
         "sqrt": wrist_by_wrong_root,
@@ -296,6 +319,7 @@ WRONG = {
         "arcsin": lambda R: _wrist_of(R, lambda t: np.where([1, 0, 1], np.arcsin(np.sin(t)), t)),
         "one_only": lambda R: right.wrist_angles(R)[:1],
         "half_flip": wrist_half_flipped,
+        "degrees": wrist_with_180,
     },
     "all_solutions": ALL_SOLUTIONS,
     "newton_step": {
@@ -303,6 +327,9 @@ WRONG = {
         "difference": step_of_difference,
         "transpose": step_by_transpose,
         "backwards": step_backwards,
+        "positions": lambda J, here, there: _step_by_positions(J, here, there, np.eye(3)),
+        "positions_in_tool": lambda J, here, there: _step_by_positions(J, here, there, here[:3, :3].T),
+        "two_logs": lambda J, here, there: np.linalg.pinv(J) @ (lie.log6(there) - lie.log6(here)),
     },
     "subproblem3": {
         "not_removed": distance_in_space,

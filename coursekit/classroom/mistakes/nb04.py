@@ -91,6 +91,14 @@ def theta2_by_arccos(p, theta1, theta3, lengths):
     return np.arccos(np.clip(_system(p, theta1, theta3, lengths)[0], -1, 1))
 
 
+def theta2_by_arcsin(p, theta1, theta3, lengths):
+    return np.arcsin(np.clip(_system(p, theta1, theta3, lengths)[1], -1, 1))
+
+
+def theta2_without_a1_twice(p, theta1, theta3, lengths):
+    return right.theta2_system(p, theta1, theta3, np.array(lengths) * [2, 1, 1, 1])
+
+
 def rank_by_determinant(J, tol):
     n = min(J.shape)
     square = J @ J.T if J.shape[0] == n else J.T @ J
@@ -121,6 +129,7 @@ WRONG = {
         "arm_only": lambda J: np.linalg.det(J[3:, :3]),
         "two_products": lambda J: blocks_on_the_diagonal(J) - blocks_without_sign(J),
         "whole": lambda J: np.linalg.det(J),
+        "two_rows": lambda J: -np.linalg.det(J[1:3, 4:6]) * np.linalg.det(J[4:6, 1:3]),
     },
     "elbow_angle": {
         "inverted": lambda a3, d4: np.arctan(d4 / a3),
@@ -150,6 +159,8 @@ WRONG = {
         "front_only": theta2_to_the_front,
         "divided": theta2_by_a_quotient,
         "one_quadrant": theta2_by_arccos,
+        "arcsin": theta2_by_arcsin,
+        "a1_twice": theta2_without_a1_twice,
     },
     "rank": {
         "determinant": rank_by_determinant,

@@ -77,6 +77,10 @@ def geometric_space(axes, origins, tool):
     return right.jacobian_geometric(axes, origins, 0 * tool)
 
 
+def geometric_entry_by_entry(axes, origins, tool):
+    return np.vstack([np.transpose(axes), np.transpose(axes * (tool - origins))])
+
+
 def _quotients(fk, theta, step):
     """The pose behind and the pose ahead of theta, one joint moved at a time."""
     moves = step * np.eye(len(theta))
@@ -134,6 +138,18 @@ def differences_of_euler_angles(fk, theta, step):
     turn = rotations.zyx(ahead[:, :3, :3]) - rotations.zyx(behind[:, :3, :3])
     turn = np.angle(np.exp(1j * turn))[:, ::-1]  # roll, pitch, yaw, read as turns about x, y, z
     return _columns(turn, ahead[:, :3, 3] - behind[:, :3, 3]) / (2 * step)
+
+
+def differences_without_log(fk, theta, step):
+    behind, ahead = _quotients(fk, theta, step)
+    w = np.array([lie.vee3(R) for R in ahead[:, :3, :3] - behind[:, :3, :3]])
+    return _columns(w, ahead[:, :3, 3] - behind[:, :3, 3]) / (2 * step)
+
+
+def differences_of_logs(fk, theta, step):
+    behind, ahead = _quotients(fk, theta, step)
+    w = lie.log3(ahead[:, :3, :3]) - lie.log3(behind[:, :3, :3])
+    return _columns(w, ahead[:, :3, 3] - behind[:, :3, 3]) / (2 * step)
 
 
 def ellipsoid_without_root(J):
@@ -231,6 +247,25 @@ def velocity_with_rate2_alone(theta, rate, lengths):
     return v_B, _seen_from_tool(theta, v_B, lambda c, s: np.array([[c, -s], [s, c]]))
 
 
+def velocity_by(combined):
+    """With combined(that of theta_1, that of theta_2) for the sine and the cosine of the sum."""
+
+    def velocity(theta, rate, lengths):
+        (s1, s2), (c1, c2), (l1, l2) = np.sin(theta), np.cos(theta), lengths
+        s12, c12 = combined(s1, s2), combined(c1, c2)
+        v_B = np.array([[-l1 * s1 - l2 * s12, -l2 * s12], [l1 * c1 + l2 * c12, l2 * c12]]) @ rate
+        return v_B, np.array([[c12, s12], [-s12, c12]]) @ v_B
+
+    return velocity
+
+
+def velocity_on_its_side(theta, rate, lengths):
+    (t1, t12), (l1, l2) = np.cumsum(theta), lengths
+    one, two = l1 * np.array([-np.sin(t1), np.cos(t1)]), l2 * np.array([-np.sin(t12), np.cos(t12)])
+    v_B = np.array([one + two, two]) @ rate
+    return v_B, _seen_from_tool(theta, v_B, lambda c, s: np.array([[c, -s], [s, c]]))
+
+
 WRONG = {
     "jacobian_space": {
         "at_zero": space_at_zero,
@@ -247,6 +282,7 @@ WRONG = {
         "next_axis": geometric_next_axis,
         "from_base": geometric_from_base,
         "space": geometric_space,
+        "entrywise": geometric_entry_by_entry,
     },
     "jacobian_by_differences": {
         "forward": differences_forward,
@@ -258,6 +294,8 @@ WRONG = {
         "body": differences_in_body,
         "space": differences_in_space,
         "euler": differences_of_euler_angles,
+        "no_log": differences_without_log,
+        "two_logs": differences_of_logs,
     },
     "ellipsoid": {
         "no_root": ellipsoid_without_root,
@@ -282,6 +320,9 @@ WRONG = {
         "turned_by_theta1": velocity_turned_by_theta1,
         "link2_alone": velocity_with_link2_alone,
         "rate2_alone": velocity_with_rate2_alone,
+        "sines_added": velocity_by(np.add),
+        "sines_multiplied": velocity_by(np.multiply),
+        "on_its_side": velocity_on_its_side,
     },
     **more.WRONG,
 }

@@ -34,6 +34,15 @@ def frames_with_chord(points, centre):
     return T
 
 
+def frames_with_last_pose_copied(points, centre):
+    T = right.tool_frames(points, centre)
+    return np.concatenate([T[:-1], T[-2:-1]])
+
+
+def frames_round_the_end(points, centre):
+    return right.tool_frames(np.vstack([points, points[:1]]), centre)[:-1]
+
+
 def frames_swapped(points, centre):
     T = right.tool_frames(points, centre)
     T[:, :3, :3] = T[:, :3, [1, 0, 2]] * [1, 1, -1]
@@ -135,6 +144,11 @@ def quaternion_signs_of_differences(R):
 def quaternion_divided_by_w(R):
     w = np.sqrt(1 + np.trace(R)) / 2
     return np.concatenate([[w], _signs(R) / (4 * w)])
+
+
+def quaternion_quarter_of_the_line(R):
+    q = right.quaternion(R)
+    return q * np.abs(q).max()
 
 
 def quaternion_turned_back(R):
@@ -254,6 +268,15 @@ def speed_signed(q, points, v_max):
     return 1 / (np.diff(q, axis=0) / step[:, None] / v_max).max()
 
 
+def speed_largest_bound(q, points, v_max):
+    return right.largest_speed(q, points, np.full(len(v_max), v_max.max()))
+
+
+def speed_signed_at_the_end(q, points, v_max):
+    step = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    return (v_max / (np.diff(q, axis=0) / step[:, None])).min()
+
+
 def speed_with_bound_of_the_fastest(q, points, v_max):
     slope = (_use(q, points, v_max) * v_max).max(axis=0)
     return v_max[np.argmax(slope)] / slope.max()
@@ -283,6 +306,8 @@ WRONG = {
         "backward": frames_backward,
         "central": frames_central,
         "last_copied": frames_with_last_copied,
+        "pose_copied": frames_with_last_pose_copied,
+        "round_the_end": frames_round_the_end,
     },
     "quaternion": {
         "wrong_entries": quaternion_as_printed,
@@ -293,6 +318,7 @@ WRONG = {
         "lost_at_half_turn": quaternion_signs_of_differences,
         "divided_by_w": quaternion_divided_by_w,
         "turned_back": quaternion_turned_back,
+        "quarter": quaternion_quarter_of_the_line,
     },
     "zyx": {
         "signs_flipped": zyx_flipped,
@@ -326,6 +352,8 @@ WRONG = {
         "mean": speed_mean,
         "one_step": speed_one_step,
         "signed": speed_signed,
+        "largest_bound": speed_largest_bound,
+        "signed_speeds": speed_signed_at_the_end,
     },
     **_nb06_turns.WRONG,
     **_nb06_branch.WRONG,

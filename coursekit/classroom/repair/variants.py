@@ -82,6 +82,7 @@ _COMPARE: dict[type, Callable] = {
 }
 _ALIKE = (
     ("sin", "cos", "tan"),
+    ("tan", "arctan"),
     ("arcsin", "arccos", "arctan"),
     ("asin", "acos", "atan"),
     ("any", "all"),
