@@ -29,7 +29,7 @@ import numpy as np
 
 from .course import PACKAGE
 from .exercise import Exercise, Misfit, answer, misshapen, thaw
-from .library import library_call
+from .library import GENERATED, library_call
 from .plain import in_plain_words
 from .source import catches_everything
 
@@ -141,7 +141,7 @@ class _Watch:
         self.lines = self.cost = 0
         self.calls: list[str] = []
         self.frame: FrameType | None = None
-        self.line = 0
+        self.line, self.within = 0, False  # in a library that it called
 
     def __enter__(self) -> _Watch:
         self.end = time.monotonic() + SECONDS
@@ -166,14 +166,16 @@ class _Watch:
         late = self.lines % 1000 == 0 and time.monotonic() > self.end
         dear = self.lines > MANY and self.cost > COST
         if (self.lines > LINES or dear or late) and not catches_everything(frame):
+            while frame.f_back and _is_library(frame.f_code.co_filename, GENERATED):
+                frame, self.within = frame.f_back, True  # of sympy, say, which computes with code it made
             self.frame, self.line = frame, frame.f_lineno
             raise Endless
         return self._line
 
 
 @cache
-def _is_library(filename: str) -> bool:
-    return filename.startswith(("<frozen", "<__array_function__")) or (
+def _is_library(filename: str, *made: str) -> bool:
+    return filename.startswith(("<frozen", "<__array_function__", *made)) or (
         not filename.startswith("<") and str(Path(filename).resolve()).startswith(LIBRARIES)
     )
 
@@ -182,8 +184,8 @@ def _endless(watch: _Watch) -> Attempt:
     if watch.frame is None:
         return Attempt(fault="error", text="it does not end", endless=True)
     code, line = watch.frame.f_code, watch.line - watch.frame.f_code.co_firstlineno + 1
-    lines = min(watch.lines, LINES)
-    text = f"it does not end: after {lines:,} lines it is still in line {line} of {code.co_name}"
+    lines = f"does not end: after {min(watch.lines, LINES):,} lines it"
+    text = f"it {'takes too long: it' if watch.within else lines} is still in line {line} of {code.co_name}"
     return Attempt(fault="error", text=text + _source_line(code, watch.line), endless=True)
 
 

@@ -220,7 +220,9 @@ def _numbers(value) -> np.ndarray:
         # whatever else can be indexed, numpy would read to its end, which some things have not (np.r_)
         made_once = ", but something that makes them one by one: return list(...) of it"
         text = made_once if isinstance(value, Iterator) else ""
-        raise Misfit(f"the answer ({type(value).__name__}) is not an array of numbers{text}")
+        if hasattr(value, "__float__"):  # of sympy, say
+            text = ": float(answer) is one"
+        raise Misfit(f"the answer ({type(value).__name__}) is not a number or an array of numbers{text}")
     try:
         array = np.asarray(value)
     except Exception:  # ragged lists, objects that refuse

@@ -108,6 +108,18 @@ def test_an_endless_loop_ends_with_its_line(body):
     assert re.search(r"it does not end: after [\d,]+ lines it is still in line \d of ", found.say)
 
 
+def test_what_takes_too_long_within_a_library_is_told_with_the_line_that_called_it(monkeypatch):
+    monkeypatch.setattr("coursekit.classroom.attempt.LINES", 100)
+    made: dict = {}
+    exec("def slow():\n    for _ in range(1000):\n        pass", made)  # as sympy makes what it computes with
+
+    def fk(theta, l1, l2):
+        return made["slow"]()
+
+    said = verdict("fk", fk).say
+    assert said == 'it takes too long: it is still in line 2 of fk: `return made["slow"]()`'
+
+
 def test_an_argument_that_was_changed_is_named():
     right = "theta[1] += theta[0]\nreturn [l1 * np.cos(theta[0]) + l2 * np.cos(theta[1]), "
     right += "l1 * np.sin(theta[0]) + l2 * np.sin(theta[1])]"

@@ -146,6 +146,7 @@ EXERCISES = [
             Hint(
                 "quarter", "a quarter of a line is q times its largest number: divide the line by its length"
             ),
+            Hint("no_one", "the four entries of the diagonal begin with a 1: it is missing"),
         ),
         laws=(("a unit quaternion has length 1", _unit),),
     ),
@@ -194,6 +195,7 @@ EXERCISES = [
                 "zyz", "these are ZYZ angles, whose second turn is about y, but whose third is about z again"
             ),
             Hint("degrees", "the answer is in radians: yours looks like degrees"),
+            Hint("arccos", "an arccos never leaves the upper half of the circle; yaw and roll go all round"),
         ),
     ),
     Exercise(

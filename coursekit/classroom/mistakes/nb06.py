@@ -151,6 +151,13 @@ def quaternion_quarter_of_the_line(R):
     return q * np.abs(q).max()
 
 
+def quaternion_without_the_one(R):
+    q = right.quaternion(R)
+    k = int(np.argmax(np.abs(q)))
+    line = 4 * q[k] * q - np.eye(4)[k]
+    return line / np.linalg.norm(line)
+
+
 def quaternion_turned_back(R):
     return right.quaternion(R) * [1, -1, -1, -1]
 
@@ -173,6 +180,12 @@ def zyx_reversed(R):
 def zyx_by_arcsin(R):
     pitch = -np.arcsin(R[2, 0])
     return np.array([np.arcsin(R[1, 0] / np.cos(pitch)), pitch, np.arcsin(R[2, 1] / np.cos(pitch))])
+
+
+def zyx_by_arccos(R):
+    pitch = right.zyx(R)[1]
+    yaw, roll = np.arccos(np.clip(np.array([R[0, 0], R[2, 2]]) / np.cos(pitch), -1, 1))
+    return np.array([yaw, pitch, roll])
 
 
 def zyx_of_the_other_product(R):
@@ -319,6 +332,7 @@ WRONG = {
         "divided_by_w": quaternion_divided_by_w,
         "turned_back": quaternion_turned_back,
         "quarter": quaternion_quarter_of_the_line,
+        "no_one": quaternion_without_the_one,
     },
     "zyx": {
         "signs_flipped": zyx_flipped,
@@ -330,6 +344,7 @@ WRONG = {
         "arctan": zyx_by_arctan,
         "zyz": zyx_with_z_twice,
         "degrees": zyx_degrees,
+        "arccos": zyx_by_arccos,
     },
     "inside": {
         "no_turns": inside_without_turns,
