@@ -18,7 +18,7 @@ PALETTE = {
     "y": 0x3F9E5C,
     "z": 0x3A6FD6,
     "axis": 0x7A4FBF,
-    "trace": 0x0E8FA3,
+    "trace": 0x0C8295,
     "accent": 0xC2307E,
     "bone": 0x3C4654,
     "ghost": 0x4F86C6,
@@ -31,7 +31,7 @@ def color(name: str | int) -> int:
     """A palette name or a number 0xRRGGBB as the number; ValueError for any other name.
 
     >>> hex(color("trace"))
-    '0xe8fa3'
+    '0xc8295'
     """
     if isinstance(name, str):
         if name not in PALETTE:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure  # else only where it is used: its import is slow
 
 # Colours of curves: a contrast of 3 or more on white and on the paper of a dark page.
-CURVES = ("#0E8FA3", "#C2307E", "#C75B12", "#3A7DE0", "#5F8A1E", "#8F6BD4", "#A07A12", "#7B8794")
+CURVES = ("#0C8295", "#C2307E", "#C75B12", "#3A7DE0", "#5F8A1E", "#8F6BD4", "#A07A12", "#7B8794")
 LOW = 2.8  # inches: a figure that has to be narrow is not drawn lower
 _INK = "#010203"  # where matplotlib writes it, the page's own ink comes
 STYLE: Any = {

@@ -89,7 +89,10 @@ def test_it_stands_on_a_dark_page_as_on_a_white_one():
     assert np.median(white[floor & (dark < 60).all(axis=-1)].min(axis=-1)) > 180  # grid and shadow are faint
 
 
-@pytest.mark.parametrize("ink", [*picture.INK.values(), PALETTE["bone"]], ids=hex)
+LETTERED = [PALETTE[name] for name in ("bone", "z", "axis", "trace", "accent")]  # in figures, too
+
+
+@pytest.mark.parametrize("ink", [*picture.INK.values(), *LETTERED], ids=hex)
 def test_letters_can_be_read(ink):
     assert np.dot(LIGHT, linear(channels(ink))) + 0.05 <= 1.05 / 4.5
 
