@@ -37,9 +37,12 @@ def column(controls: Sequence[Control | Sliders], reset: Action) -> ipywidgets.W
     return ipywidgets.VBox([*rows, ipywidgets.Box([*switches, reset], layout=flow)]).add_class("ck-column")
 
 
-def beside(column: ipywidgets.Widget | None, viewer: Viewer) -> ipywidgets.Widget:
-    """The controls beside the picture, under it where there is no room."""
-    return ipywidgets.Box([column, viewer] if column else [viewer]).add_class("ck-top")
+def beside(
+    column: ipywidgets.Widget | None, viewer: Viewer, words: Sequence[ipywidgets.Widget]
+) -> ipywidgets.Widget:
+    """The controls and, where they leave room, the words beside the picture; under it where it is narrow."""
+    seen = viewer.add_class("ck-scene")
+    return ipywidgets.Box([*([column] if column else []), seen, *words]).add_class("ck-top")
 
 
 def under(outputs: Sequence[ipywidgets.Widget]) -> list[ipywidgets.Widget]:

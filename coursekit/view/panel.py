@@ -115,9 +115,9 @@ class Panel(ipywidgets.VBox):
         self.add_class("ck-panel")
         self._reset_button = parts.Action("reset", act=self.reset)
         column = layout.column(controls, self._reset_button) if controls else None
-        top = layout.beside(column, self.viewer)
         self.formula = [formula] if formula else []
-        self.children = [top, *self.formula, self.line, *layout.under(self.below)]
+        top = layout.beside(column, self.viewer, [*self.formula, self.line])
+        self.children = [top, *layout.under(self.below)]
         self._draw_below(values, lambda _plot: False)
         for control in self._widgets():
             self._listen(control)

@@ -136,6 +136,30 @@ def test_tracks_begin_and_end_below_each_other(opened):
     assert len(boxes) == 6 and np.ptp(boxes, axis=0).max() < 1
 
 
+# Where a line of words begins: [left, top, right], and where the picture and the controls end.
+LINES = """() => {
+    const rows = [], range = document.createRange();
+    for (const words of document.querySelectorAll(".ck-top > .ck-control")) {
+        const letters = document.createTreeWalker(words, NodeFilter.SHOW_TEXT);
+        while (letters.nextNode()) {
+            range.selectNodeContents(letters.currentNode);
+            rows.push(...range.getClientRects());
+        }
+    }
+    const place = (which) => document.querySelector(which).getBoundingClientRect();
+    const [scene, column] = [place(".ck-viewer"), place(".ck-column")];
+    return [rows.map((box) => [box.left, box.top, box.right]), [scene.left, scene.bottom], column.bottom];
+}"""
+
+
+def test_words_fill_the_room_under_the_controls(opened):
+    lines, (left, bottom), controls = opened.page.evaluate(LINES)
+    beside = [right for _, top, right in lines if top < bottom]
+    assert len(beside) >= 3 and max(beside) < left - 5, "beside the picture, and not under it"
+    assert min(top for _, top, _ in lines) >= controls - 1
+    assert max(right for *_, right in lines) > left, "below it they have all of the width"
+
+
 def test_everything_that_can_be_pressed_is_large_enough(opened):
     assert opened.page.evaluate(SMALL) == 0
 
