@@ -96,7 +96,9 @@ POSES_SEEN = """() => {
     stage.afterFrame.push(() => { poses.add(link.matrixWorld.elements.join()); frames += 1; });
 }"""
 
-READS = 2000  # milliseconds, at least, in which one reads what stands between the imports and the first explorer
+READS = (
+    2000  # milliseconds, at least, in which one reads what stands between the imports and the first explorer
+)
 # When a cell is run, when its stored picture and its first frame are there, and the long tasks.
 FIRST = """window.first = { tasks: [] };
 new PerformanceObserver((list) => first.tasks.push(...list.getEntries()))

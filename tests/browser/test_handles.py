@@ -6,6 +6,7 @@ import pytest
 from coursekit import ik, robots, rotations, view
 from tests.browser.explorer import centre, finger, handle
 from tests.browser.test_kinematics import BUSY
+from tests.browser.test_reopened import SHUT_DOWN
 
 pytestmark = pytest.mark.browser
 
@@ -222,6 +223,23 @@ def test_a_slow_kernel_does_not_pull_back_what_a_hand_holds(opened):
         drag(explorer, start, way, steps=15)
         np.testing.assert_allclose(centre(explorer, "move the tool"), start + way, atol=4)
         explorer.assert_arm_stands_at(explorer.values())
+
+    explorer.page.evaluate(
+        SHUT_DOWN
+    )  # a hand that nobody will ever answer does not hold the sliders for good
+    start, mouse = centre(explorer, "move the tool"), explorer.page.mouse
+    mouse.move(*start)
+    mouse.down()
+    mouse.move(*(start + [20, 20]))
+    explorer.page.wait_for_timeout(300)
+    mouse.up()
+    slider = explorer.page.locator("[role=slider]").first
+    before = float(slider.get_attribute("aria-valuenow"))
+    slider.press("PageUp")
+    explorer.page.wait_for_timeout(1000)
+    assert float(slider.get_attribute("aria-valuenow")) == pytest.approx(before + 10, abs=0.01)
+    assert all("Cannot send" in error for error in explorer.notebook.errors)
+    explorer.notebook.errors.clear()
 
 
 def test_a_drag_beside_the_arm_turns_the_picture(opened):

@@ -1,6 +1,7 @@
 // The arm follows its sliders here, in the next frame, before the kernel has answered and also where there is none. When
 // the kernel speaks of the same sliders, its pose is drawn and no longer ours.
 
+const touchesOf = (sliders) => sliders.reduce((sum, slider) => sum + (slider ? slider.get("touched") : 0), 0);
 function makeFollower(model, moved) {
   let sliders = [], ahead = false, over = false;
   const touched = () => {
@@ -16,16 +17,16 @@ function makeFollower(model, moved) {
     ahead = false;
     sliders.forEach((slider) => slider && slider.on("change:touched", touched));
   };
-  // What a hand in the picture holds, {what, values}, as long as the kernel has not taken it over: meanwhile its word on
-  // the sliders is of an earlier moment.
-  const hand = () => {
+  // What a hand in the picture has made of these sliders, or null, until the kernel has taken it over, whose word is of an
+  // earlier moment, or a person has touched a slider since.
+  const hand = (what, sliders) => {
     const told = model.get("dragged") || {};
-    return told.count > model.get("heard") ? told : {};
+    return told.what === what && told.count > model.get("heard") && told.touched === touchesOf(sliders) ? told.values : null;
   };
   // Joint values in radians and metres: of the hand or the sliders, and of the kernel for the joints that have none.
   const theta = () => {
-    const { per } = model.get("drive"), known = model.get("theta"), { what, values } = hand();
-    return sliders.map((slider, k) => (slider ? (what === "theta" ? values[k] : slider.get("value")) / per[k] : known[k]));
+    const { per } = model.get("drive"), known = model.get("theta"), held = hand("theta", sliders);
+    return sliders.map((slider, k) => (slider ? (held ? held[k] : slider.get("value")) / per[k] : known[k]));
   };
   const again = () => (ready = listen());
   model.on("change:drive", again);

@@ -56,8 +56,8 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
       sliders[k].set("value", Number(inside.toPrecision(15)));
       sliders[k].set("touched", sliders[k].get("touched") + 1); // the arm follows, and whoever waits for the kernel
     });
-    const count = (model.get("dragged")?.count || 0) + 1;
-    model.set("dragged", { what, values: sliders.map((slider) => slider && slider.get("value")), live, count });
+    const count = (model.get("dragged")?.count || 0) + 1, touched = touchesOf(sliders);
+    model.set("dragged", { what, values: sliders.map((slider) => slider && slider.get("value")), live, count, touched });
     model.save_changes();
   };
   const putTarget = (target, T, live) => {
@@ -75,8 +75,8 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
   };
   const isPoint = (target) => target.sliders.length === 3; // moved as it is turned: not at all
   const targetPose = ({ name, sliders, per }) => {
-    const { what, values } = follower.hand();
-    return poseOf([...sliders.map((slider, k) => (what === name ? values[k] : slider.get("value")) / per[k]), 0, 0, 0]);
+    const held = follower.hand(name, sliders);
+    return poseOf([...sliders.map((slider, k) => (held ? held[k] : slider.get("value")) / per[k]), 0, 0, 0]);
   };
   const putTheta = (theta, live) => {
     const { per } = model.get("drive");
@@ -255,10 +255,11 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
   return {
     // what a hand holds stands where that is, as do its sliders; true if it is a target, and all arms at it went along
     place() {
-      const { what, values } = follower.hand(), target = targets.find(({ name }) => name === what);
-      if (what) (target ? target.sliders : follower.sliders()).forEach((slider, k) => slider && slider.set("value", values[k]));
-      if (target) viewer.set_transform(target.path, targetPose(target));
-      return Boolean(target) && bringAlong(target);
+      const held = [...targets, { name: "theta", sliders: follower.sliders() }].find(({ name, sliders }) => follower.hand(name, sliders));
+      if (!held) return false;
+      follower.hand(held.name, held.sliders).forEach((value, k) => held.sliders[k] && held.sliders[k].set("value", value));
+      if (held.path) viewer.set_transform(held.path, targetPose(held));
+      return Boolean(held.path) && bringAlong(held);
     },
     draw() { // gives where they stand
       const { width, height } = renderer.size(), shownAt = [];

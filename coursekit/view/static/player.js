@@ -1,14 +1,12 @@
 // Playing a motion that was sent once: buttons, a scrubber and speeds, all stepped here in the page.
 
-const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
-
 // show(k) draws frame k of the motion; report(k, playing) tells the kernel, which shows the same; wake() asks for
 // animation frames.
 function makePlayer({ show, report, wake }) {
   const play = operated("button", { type: "button", class: "ck-button ck-play" }, "play");
   const back = operated("button", { type: "button", class: "ck-button", title: "to the first pose" }, "restart");
   const scrub = operated("input", { type: "range", class: "ck-scrub", min: 0, step: 1, "aria-label": "pose along the motion" });
-  const speed = operated("select", { class: "ck-button", "aria-label": "playing speed" }, ...SPEEDS.map((factor) => element("option", { value: factor }, `${factor} x`)));
+  const speed = operated("select", { class: "ck-button", "aria-label": "playing speed" }, ...[0.1, 0.25, 0.5, 1, 2].map((factor) => element("option", { value: factor }, `${factor} x`)));
   const loop = operated("input", { type: "checkbox" });
   const count = element("span", { class: "ck-count" });
   const bar = operated("div", { class: "ck-player", role: "group", "aria-label": "motion" });
