@@ -153,10 +153,13 @@ LINES = """() => {
 
 
 def test_words_fill_the_room_under_the_controls(opened):
+    opened.page.locator(".ck-viewer").scroll_into_view_if_needed()
     lines, (left, bottom), controls = opened.page.evaluate(LINES)
     beside = [right for _, top, right in lines if top < bottom]
     assert len(beside) >= 3 and max(beside) < left - 5, "beside the picture, and not under it"
     assert min(top for _, top, _ in lines) >= controls - 1
+    reached = "(at) => Boolean(document.elementFromPoint(...at)?.closest('.ck-scene'))"
+    assert opened.page.evaluate(reached, [left + 9, bottom - 9]), "no words lie over the picture"
     assert max(right for *_, right in lines) > left, "below it they have all of the width"
 
 

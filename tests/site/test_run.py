@@ -1,5 +1,6 @@
 """The course in a browser that reaches one plain server and nothing else, as a student has it."""
 
+import contextlib
 import csv
 import json
 import shutil
@@ -10,6 +11,7 @@ import pytest
 from coursekit.classroom.author import notebook
 from coursekit.classroom.course import the_course
 from coursekit.classroom.grader import collect, grade
+from tests.browser.drivers import Firefox
 from tests.classroom import leaks
 from tests.site.server import Served, Visit
 
@@ -139,6 +141,18 @@ def work(browser, run, served, tmp_path_factory):
         student.run("ex-dh-transform")
         told["right offline"] = student.run("check-dh-transform")
     return told
+
+
+def test_in_firefox_too(served, tmp_path):
+    with contextlib.closing(Firefox(tmp_path)) as page:
+        page.goto(f"{served.url}/{NAME.replace('.ipynb', '.html')}")
+        page.evaluate("() => document.querySelector('header a.run').click()")
+        for ready in ("() => location.pathname.includes('/run/lab/')", OPEN, READY):
+            page.wait_for_function(ready, timeout=300_000)
+        assert page.evaluate(RUN, ["setup", None]) == ""
+        for answer, told in ((WRONG, "✗ dh_transform"), (RIGHT, "✓ dh_transform: right on")):
+            page.evaluate(RUN, ["ex-dh-transform", answer])
+            assert page.evaluate(RUN, ["check-dh-transform", None]).startswith(told)
 
 
 def test_a_check_fails_and_passes_there(work):
