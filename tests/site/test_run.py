@@ -148,7 +148,7 @@ def test_in_firefox_too(served, tmp_path):
         page.goto(f"{served.url}/{NAME.replace('.ipynb', '.html')}")
         page.evaluate("() => document.querySelector('header a.run').click()")
         for ready in ("() => location.pathname.includes('/run/lab/')", OPEN, READY):
-            page.wait_for_function(ready, timeout=300_000)
+            page.wait_for_function(f"() => Boolean(({ready})())", timeout=300_000)
         assert page.evaluate(RUN, ["setup", None]) == ""
         for answer, told in ((WRONG, "✗ dh_transform"), (RIGHT, "✓ dh_transform: right on")):
             page.evaluate(RUN, ["ex-dh-transform", answer])
