@@ -105,14 +105,13 @@ class Scene:
 
     def reaching(self) -> dict:
         """The arms, all of one robot, whose tool is at their goal, with which the page moves them; or {}."""
-
-        def is_there(arm):
-            goal = self.moved.get(arm.goal)
-            return goal is not None and np.allclose(arm.robot.fk(arm.theta), goal, rtol=0, atol=1e-6)
-
-        there = [arm for arm in self.robots.values() if is_there(arm)]
-        arms = {arm.path: arm.theta.tolist() for arm in there}
-        return {"goal": there[0].goal, **there[0].screws(), "arms": arms} if there else {}
+        arms = [arm for arm in self.robots.values() if arm.goal in self.moved]
+        if not arms:
+            return {}
+        goal, tools = arms[0].goal, arms[0].robot.fk(np.array([arm.theta for arm in arms]))
+        there = np.isclose(tools, self.moved[goal], rtol=0, atol=1e-6).all(axis=(1, 2))
+        told = {arm.path: arm.theta.tolist() for arm, is_there in zip(arms, there, strict=True) if is_there}
+        return {"goal": goal, **arms[0].screws(), "arms": told} if told else {}
 
     @property
     def moving(self) -> list[str]:

@@ -66,12 +66,11 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
   };
   const bringAlong = (target) => { // as far as it goes in small steps: the kernel knows all ways, and why one ends
     const { goal, arms, ...arm } = model.get("reaching");
-    if (goal !== target.name) return false;
+    if (goal !== target.name) return;
     for (const [path, theta] of Object.entries(arms)) {
       const { D, far } = reachFor(arm, theta, targetPose(target));
       if (far < 1e-5) D.forEach((T, k) => viewer.set_transform([...splitPath(path), String(k + 1)], T));
     }
-    return true;
   };
   const isPoint = (target) => target.sliders.length === 3; // moved as it is turned: not at all
   const targetPose = ({ name, sliders, per }) => {
@@ -253,13 +252,14 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
   });
 
   return {
-    // what a hand holds stands where that is, as do its sliders; true if it is a target, and all arms at it went along
+    // what a hand holds stands where that is, as do its sliders, and all arms that are at a target
     place() {
       const held = [...targets, { name: "theta", sliders: follower.sliders() }].find(({ name, sliders }) => follower.hand(name, sliders));
-      if (!held) return false;
+      if (!held) return;
       follower.hand(held.name, held.sliders).forEach((value, k) => held.sliders[k] && held.sliders[k].set("value", value));
-      if (held.path) viewer.set_transform(held.path, targetPose(held));
-      return Boolean(held.path) && bringAlong(held);
+      if (!held.path) return;
+      viewer.set_transform(held.path, targetPose(held));
+      bringAlong(held);
     },
     draw() { // gives where they stand
       const { width, height } = renderer.size(), shownAt = [];

@@ -141,10 +141,11 @@ function makeViewer() {
         taken(what, isGuess) {
           if (!isGuess) player.load(null);
           if (what === "theta") return stage.moved();
-          if (handles.place()) {
+          if (model.get("reaching").goal === what) { // the frame brings all of it along
             stage.moved();
             return stage.now();
           }
+          handles.place();
           handles.draw(); // the rest waits for the kernel's answer, which would wait for a frame of the target alone
           late = late || setTimeout(stage.moved, 100);
         },
