@@ -65,6 +65,7 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
     taken(target.name, isPoint(target));
   };
   const bringAlong = (target) => { // as far as it goes in small steps: the kernel knows all ways, and why one ends
+    viewer.set_transform(target.path, targetPose(target));
     const { goal, arms, ...arm } = model.get("reaching");
     if (goal !== target.name) return;
     for (const [path, theta] of Object.entries(arms)) {
@@ -257,9 +258,7 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
       const held = [...targets, { name: "theta", sliders: follower.sliders() }].find(({ name, sliders }) => follower.hand(name, sliders));
       if (!held) return;
       follower.hand(held.name, held.sliders).forEach((value, k) => held.sliders[k] && held.sliders[k].set("value", value));
-      if (!held.path) return;
-      viewer.set_transform(held.path, targetPose(held));
-      bringAlong(held);
+      if (held.path) bringAlong(held);
     },
     draw() { // gives where they stand
       const { width, height } = renderer.size(), shownAt = [];
