@@ -12,12 +12,12 @@ from coursekit.view.viewer import Viewer
 _OF_A_SLIDER = ["kind", "label", "word", "unit", "value", "min", "max", "step", "start", "limits", "digits"]
 _OF_A_SLIDER += ["wide", "shape", "touched"]
 _OF_A_VIEWER = ["labels", "ghosts", "moving", "camera", "views", "description", "quality", "height", "drive"]
-_OF_A_VIEWER += ["pointers", "theta", "motion", "motion_texts", "frame"]
+_OF_A_VIEWER += ["pointers", "theta", "motion", "motion_texts", "frame", "reaching"]
 _OF_A_FORMULA = ["kind", "label", "word", "value", "says"]
 
 
 def to_html(shown: Panel | Viewer) -> str:
-    """A Panel or a Viewer as it stands now (pose, motion, joint sliders, formula) as one page of about 1 MB.
+    """A Panel or a Viewer as it stands now (pose, motion, sliders that move arms, formula): a page, 1 MB.
 
     What only a kernel can compute is not shown for a pose that the sliders of the page have changed. Without
     WebGL the page shows a picture.
@@ -31,6 +31,7 @@ def to_html(shown: Panel | Viewer) -> str:
     viewer = shown.viewer if isinstance(shown, Panel) else shown
     state = _of(viewer, _OF_A_VIEWER)
     state |= {name: _base64(getattr(viewer, name)) for name in ("pose", "motion_poses")}
+    state["handles"] = [one for one in viewer.handles if one["path"] == viewer.reaching.get("goal")]
     state["commands"] = {key: _base64(data) for key, data in viewer.messages.packed.items()}
     sliders: dict[str, dict] = {}
     formula: dict | None = None

@@ -99,8 +99,7 @@ class Panel(ipywidgets.VBox):
         self.motion: Motion | None = None
         self._played = False  # whether it ran when the page last said so
         self._stale: list = []  # plots that wait until a drag ends
-        self.live = False  # more values follow at once
-        self.late = False  # and the scene waits for the last of them
+        self.live, self.late = False, False  # more values follow at once; and the scene waits for the last
         named = [c for c in (*controls, *below) if hasattr(c, "name")]  # stock widgets are not
         self._controls = {control.name: control for control in named}
         for control in named:
@@ -251,8 +250,7 @@ class Panel(ipywidgets.VBox):
         self.below, self.formula, self._controls, self._stale, self.motion = [], [], {}, [], None
         self.scene = None  # type: ignore[assignment]  # closed: nothing may use it any more
         self.children = []
-        self._update = self._text = None
-        self._drivers = self._theta_sliders
+        self._update, self._text, self._drivers = None, None, self._theta_sliders
 
     # -- inside
     def _put(self, values):
@@ -273,9 +271,11 @@ class Panel(ipywidgets.VBox):
             self.motion.arm.theta = self.motion.theta
         return self.values if self._was_put else values
 
-    def drivers(self) -> Sequence[parts.Slider | None]:
-        """The slider of each joint of the robot "robot", by which the page moves it; [] where it cannot."""
-        return self._drivers(self.values) if self.viewer.drive else []
+    def drivers(self) -> list[parts.Slider | None]:
+        """The sliders by which the page itself moves arms: of joints, and of a target that arms follow."""
+        joints = self._drivers(self.values) if self.viewer.drive else []
+        goal = self.viewer.reaching.get("goal")
+        return [*joints, *(slider for one in self._targets() if one.path == goal for slider in one.sliders)]
 
     def _theta_sliders(self, _values):
         sliders = self._controls.get("theta")

@@ -21,6 +21,8 @@ from nbconvert.exporters import HTMLExporter
 from nbformat import NotebookNode
 from tornado import web
 
+from coursekit.kinematics import rotations
+
 EXPLORERS = {  # title -> function of coursekit.view
     "Explorer of DH and PoE": "explore",
     "Explorer of screws": "explore_screws",
@@ -37,7 +39,7 @@ _FITS = """<script>{
     frame.style.height = `${data.height}px`;
   });
 }</script>"""
-HINT = "No kernel runs here: joint sliders, where there are any, move the arm; run the notebook for the rest."
+HINT = "No kernel runs here: sliders, or the buttons under it, move the arm; run the notebook for the rest."
 _ONE_AT_A_TIME = threading.Lock()  # a new explorer closes the one of its name, as when a cell is run again
 
 
@@ -60,11 +62,27 @@ def page_of(line: str) -> str | None:
     with _ONE_AT_A_TIME:
         panel = getattr(view, EXPLORERS[found["title"]])(robot)
         try:
-            if "theta" in panel.values and shown.shape == (robot.n,):
-                panel.set(theta=np.clip(shown / shown_per_si(robot), robot.q_min, robot.q_max))
+            if repr(panel) != line and shown.shape == (robot.n,):
+                _put(panel, robot, shown / shown_per_si(robot))
             return view.to_html(panel)
         finally:
             panel.close()
+
+
+def _put(panel, robot, theta):
+    """The arm where it was, as nearly as the line says it: by its joints, its target or its motion."""
+    if "theta" in panel.values:
+        panel.set(theta=np.clip(theta, robot.q_min, robot.q_max))
+    elif "pose" in panel.values:
+        T = robot.fk(theta)
+        panel.set(pose=[*T[:3, 3], *rotations.zyx(T[:3, :3])])
+        ways = {name: arm.theta for name, arm in panel.scene.robots.items() if arm.goal}
+        shown = min(ways, key=lambda name: np.abs(np.sin((ways[name] - theta) / 2)).max())
+        if shown != "robot":  # another solution than the one that the explorer would choose
+            panel.set(solution=int(shown.removeprefix("branch")))
+    elif panel.motion is not None:
+        away = np.abs(panel.motion.thetas - theta).max(axis=1)
+        panel.rest_at(int(away.argmin()))
 
 
 # -- for JupyterLab

@@ -111,7 +111,7 @@ class Scene:
         goal, tools = arms[0].goal, arms[0].robot.fk(np.array([arm.theta for arm in arms]))
         there = np.isclose(tools, self.moved[goal], rtol=0, atol=1e-6).all(axis=(1, 2))
         told = {arm.path: arm.theta.tolist() for arm, is_there in zip(arms, there, strict=True) if is_there}
-        return {"goal": goal, **arms[0].screws(), "arms": told} if told else {}
+        return {"goal": goal, "name": arms[0].robot.name, **arms[0].screws(), "arms": told} if told else {}
 
     @property
     def moving(self) -> list[str]:

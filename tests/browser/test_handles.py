@@ -82,22 +82,29 @@ def test_arrows_and_rings_move_the_target_and_all_solutions(opened):
 def test_all_solutions_follow_the_target_while_the_kernel_is_busy(opened):
     explorer = opened("inverse", robots.kuka_kr6(), "view.explore_inverse()")
     before = target(explorer)
-    start = centre(explorer, "move {d} along its x")
     explorer.page.evaluate(BUSY)
+
+    def assert_all_have_followed():
+        T = np.array(explorer.notebook.transform("/ck/target"))
+        right = ik.analytic(explorer.robot, T)
+        assert right.exists.all()
+        for k, theta in enumerate(right.theta):
+            name = f"branch{k}" if k else "robot"
+            found = [explorer.notebook.transform(f"/ck/{name}/{link}") for link in (3, 6)]
+            np.testing.assert_allclose(found, explorer.robot.displacements(theta)[[2, 5]], atol=1e-4)
+        return T[:3, 3]
+
+    explorer.page.get_by_role("slider", name="x", exact=True).press("ArrowLeft")
+    before[0, 3] -= 0.01
+    np.testing.assert_allclose(explorer.notebook.wait_transform("/ck/target", before), before, atol=1e-9)
+    slid = assert_all_have_followed()
+    start = centre(explorer, "move {d} along its x")
     explorer.page.mouse.move(*start)
     explorer.page.mouse.down()
     for k in range(1, 7):
         explorer.page.mouse.move(*(start + [0, 6 * k]))
         explorer.page.wait_for_timeout(60)
-    T = np.array(explorer.notebook.transform("/ck/target"))
-    assert np.linalg.norm(T[:3, 3] - before[:3, 3]) > 0.02
-    right = ik.analytic(explorer.robot, T)
-    assert right.exists.all()
-    for k, theta in enumerate(right.theta):
-        found = [
-            explorer.notebook.transform(f"/ck/{f'branch{k}' if k else 'robot'}/{link}") for link in (3, 6)
-        ]
-        np.testing.assert_allclose(found, explorer.robot.displacements(theta)[[2, 5]], atol=1e-4)
+    assert np.linalg.norm(assert_all_have_followed() - slid) > 0.02
     explorer.page.mouse.up()
     explorer.settle()
     assert_all_solutions_are_at(explorer, target(explorer))

@@ -5,7 +5,8 @@ import base64
 import numpy as np
 import pytest
 
-from coursekit import robots, view
+from coursekit import ik, robots, view
+from tests.browser.test_kinematics import link
 
 pytestmark = pytest.mark.browser
 
@@ -176,6 +177,46 @@ def test_on_paper_the_robot_is_not_cut_off(browser, tmp_path):
     assert left >= outer[0] and right <= outer[1] and top >= outer[2] and bottom <= outer[3]
     assert page.eval_on_selector("#sliders", box)[2] >= outer[3]
     assert not page.is_visible(".ck-views")
+    context.close()
+
+
+def test_in_a_page_without_a_kernel_every_solution_follows_the_target(browser, tmp_path):
+    panel, kr6 = view.explore_inverse(), robots.kuka_kr6()
+    T = panel.scene.moved["/ck/target"].copy()
+    (tmp_path / "page.html").write_text(view.to_html(panel), "utf-8")
+    panel.close()
+    context = browser.new_context(offline=True)
+    page, errors = context.new_page(), []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto((tmp_path / "page.html").as_uri())
+    page.wait_for_function(DRAWN, timeout=60_000)
+    x = page.get_by_role("slider", name="x", exact=True)
+    x.press("PageDown")
+    T[0, 3] -= 0.1
+    right = ik.analytic(kr6, T)
+    page.get_by_text("target reached by 8 of 8 saved solutions").wait_for()
+    joints = ", ".join(f"{q:.1f}" for q in np.degrees(right.theta[0]))
+    assert page.inner_text("#words").startswith(f"{kr6.name}: joints ({joints}) deg; tool at (486.0,")
+    for k, theta in enumerate(right.theta):
+        found = link(page, f"/ck/{f'branch{k}' if k else 'robot'}/6")
+        np.testing.assert_allclose(found, kr6.displacements(theta)[-1], atol=1e-4)
+
+    start = np.array(list(page.locator(".ck-handle.z").first.bounding_box().values())[:2]) + 9
+    page.mouse.move(*start)
+    page.mouse.down()
+    page.mouse.move(*(start + [-30, 0]), steps=4)
+    page.mouse.up()
+    page.wait_for_function("() => !document.querySelector('#words').textContent.includes('(486.0,')")
+    assert "by 8 of 8" in page.inner_text("#words")
+
+    x.press("End")  # out of reach: what does not get there is not shown, but for the solid arm, which says so
+    page.get_by_text("the solid arm cannot follow to this target; target reached by 0 of 8").wait_for()
+    shown = (
+        "(name) => document.querySelector('.ck-viewer').coursekit.viewer.scene_tree.find(name).object.visible"
+    )
+    assert not page.evaluate(shown, ["ck", "branch3", "2"])
+    assert page.evaluate(shown, ["ck", "robot", "2"])
+    assert errors == []
     context.close()
 
 

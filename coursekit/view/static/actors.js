@@ -7,9 +7,7 @@ const yUp = ([x, y, z]) => [x, z, -y];
 
 // HTML spans, placed after every frame: crisp at any size, readable in both themes, always facing the reader.
 function makeLabels(THREE, viewer, pane, renderer) {
-  const layer = document.createElement("div");
-  layer.className = "ck-labels";
-  layer.setAttribute("aria-hidden", "true"); // the text line says the same in words
+  const layer = element("div", { class: "ck-labels", "aria-hidden": "true" }); // the text line says the same in words
   pane.append(layer);
   const point = new THREE.Vector3(), views = pane.parentElement.querySelector(".ck-views");
   let labels = [];
@@ -17,9 +15,7 @@ function makeLabels(THREE, viewer, pane, renderer) {
   return {
     set(list) {
       labels = list.map(({ path, pos, text, cls }) => {
-        const span = document.createElement("span");
-        span.className = `ck-label ${cls || ""}`;
-        span.textContent = text;
+        const span = element("span", { class: `ck-label ${cls || ""}` }, text);
         return { span, pos, path: splitPath(path), isWord: !["x", "y", "z", "tick"].includes(cls), wide: 7.2 * text.length + 6 };
       });
       labels.sort((a, b) => b.isWord - a.isWord);

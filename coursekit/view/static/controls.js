@@ -157,10 +157,9 @@ function choice(model, el) {
 
 function toggle(model, el) {
   const box = operated("input", { type: "checkbox" });
-  const draw = () => (box.checked = model.get("value"));
   box.addEventListener("change", () => tell(model, { value: box.checked }));
   el.append(element("label", { class: "ck-toggle" }, box, element("span", {}, model.get("label"))));
-  keepDrawn(model, ["value"], draw);
+  keepDrawn(model, ["value"], () => (box.checked = model.get("value")));
 }
 
 function action(model, el) {
@@ -174,7 +173,7 @@ function action(model, el) {
 
 // Text that changes with the pose. Shown at once; read aloud only when it has come to rest.
 function text(model, el) {
-  const shown = element("div", { class: "ck-text" });
+  const shown = element("div", { class: "ck-text", "aria-hidden": "true" }); // a screen reader gets the other copy, once
   const spoken = element("div", { class: "ck-spoken", role: "status", "aria-live": "polite" });
   let timer = null;
   const draw = () => {
@@ -182,7 +181,6 @@ function text(model, el) {
     clearTimeout(timer);
     timer = setTimeout(() => (spoken.textContent = model.get("value")), 600);
   };
-  shown.setAttribute("aria-hidden", "true"); // a screen reader gets the other copy, once
   el.append(shown, spoken);
   keepDrawn(model, ["value"], draw);
   spoken.textContent = model.get("value");
@@ -285,8 +283,7 @@ function takeHands(model, frame) {
 
 function takeArrows(model, frame) {
   const help = "arrow keys move the arm on this map, with Shift in small steps";
-  const asked = { ...own, tabindex: 0, role: "application", "aria-roledescription": "map", "aria-label": help, title: help };
-  for (const [name, value] of Object.entries(asked)) frame.setAttribute(name, value);
+  filled(frame, { ...own, tabindex: 0, role: "application", "aria-roledescription": "map", "aria-label": help, title: help }, []);
   keepKeys(frame);
   frame.addEventListener("keydown", (event) => {
     const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];

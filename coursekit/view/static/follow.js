@@ -18,10 +18,10 @@ function makeFollower(model, moved) {
     sliders.forEach((slider) => slider && slider.on("change:touched", touched));
   };
   // What a hand in the picture has made of these sliders, or null, until the kernel has taken it over, whose word is of an
-  // earlier moment, or a person has touched a slider since.
+  // earlier moment, or a person has touched a slider since (an answer to a touch of before may lower the count).
   const hand = (what, sliders) => {
     const told = model.get("dragged") || {};
-    return told.what === what && told.count > model.get("heard") && told.touched === touchesOf(sliders) ? told.values : null;
+    return told.what === what && told.count > model.get("heard") && told.touched >= touchesOf(sliders) ? told.values : null;
   };
   // Joint values in radians and metres: of the hand or the sliders, and of the kernel for the joints that have none.
   const theta = () => {

@@ -4,7 +4,7 @@
 // A grip moves its point by one number; where the pointer goes, that number follows: along the way of the point on the
 // screen. All of it ends in sliders, as if a person had moved those, and reaches the kernel as one message.
 
-const ARROW = 88, RING = 48, EDGE = 16; // pixels
+const ARROW = 88, RING = 48, EDGE = 16, NEAR = 1e-5; // pixels; and metres and radians, where an arm is at its target
 
 // How far a handle gives way, in pixels: to each that it would lie under, by the shortest way.
 const asideOf = (x, y, wide, others) => others.reduce(([dx, dy], other) => {
@@ -14,13 +14,14 @@ const asideOf = (x, y, wide, others) => others.reduce(([dx, dy], other) => {
   return across < along ? [dx + (right < 0 ? -across : across), dy] : [dx, dy + (down < 0 ? -along : along)];
 }, [0, 0]);
 
-// taken(what, isPoint): a hand has moved "theta" or the target at a path; redraw(): what stands where has changed
-function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, redraw }) {
+// taken(what, isPoint): a hand has moved "theta" or the target at a path; moved(): its sliders were; redraw(): what stands
+// where has changed
+function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, moved, redraw }) {
   const layer = element("div", { class: "ck-handles", role: "group", "aria-label": "handles in the picture" });
   const lines = svg("svg", { "aria-hidden": "true" });
   layer.append(lines);
   pane.append(layer);
-  let targets = [], grips = [], over = false; // targets: each with its sliders
+  let targets = [], grips = [], over = false, ways = []; // targets: each with its sliders; ways: arms brought along
 
   // --- from metres to pixels: a point of the space frame on the screen
   const point = new THREE.Vector3(), eye = new THREE.Vector3();
@@ -68,10 +69,14 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
     viewer.set_transform(target.path, targetPose(target));
     const { goal, arms, ...arm } = model.get("reaching");
     if (goal !== target.name) return;
-    for (const [path, theta] of Object.entries(arms)) {
-      const { D, far } = reachFor(arm, theta, targetPose(target));
-      if (far < 1e-5) D.forEach((T, k) => viewer.set_transform([...splitPath(path), String(k + 1)], T));
-    }
+    ways = Object.entries(arms).map(([path, theta]) => ({ path: splitPath(path), ...reachFor(arm, theta, targetPose(target)) }));
+    for (const { path, D, far } of ways) if (far < NEAR) D.forEach((T, k) => viewer.set_transform([...path, String(k + 1)], T));
+  };
+  // Whether it stands elsewhere than its sliders say, of which the kernel has not spoken yet.
+  const isLate = (target) => {
+    const { object } = viewer.scene_tree.find(target.path);
+    object.updateMatrix();
+    return targetPose(target).some((x, k) => Math.abs(x - object.matrix.elements[k]) > 1e-6);
   };
   const isPoint = (target) => target.sliders.length === 3; // moved as it is turned: not at all
   const targetPose = ({ name, sliders, per }) => {
@@ -83,10 +88,7 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
     put("theta", follower.sliders(), theta.map((q, k) => q * per[k]), live);
     taken("theta");
   };
-  const ends = () => follower.sliders().map((slider, k) => {
-    const per = model.get("drive").per[k];
-    return slider && [slider.get("min") / per, slider.get("max") / per];
-  });
+  const ends = () => follower.sliders().map((slider, k) => slider && ["min", "max"].map((end) => slider.get(end) / model.get("drive").per[k]));
 
   // --- grips: where each stands, and what a pull and a key do
   const targetGrips = (target) => (isPoint(target) ? [0] : [0, 1]).flatMap((kind) => [0, 1, 2].map((k) => {
@@ -204,9 +206,12 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
       ({ name: path, path: splitPath(path), letter, per, sliders: await childModels(model, sliders) })));
     await follower.ready();
     if (over) return;
+    hear("off");
     targets = found;
+    hear("on");
     rebuild();
   };
+  const hear = (how) => targets.forEach(({ sliders }) => sliders.forEach((slider) => slider[how]("change:value", moved)));
   model.on("change:handles", listen);
   model.on("change:drive", listen);
   listen();
@@ -253,13 +258,14 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
   });
 
   return {
-    // what a hand holds stands where that is, as do its sliders, and all arms that are at a target
+    // what a hand holds stands where that is, as do its sliders; a target where those are, and all arms that are at it
     place() {
-      const held = [...targets, { name: "theta", sliders: follower.sliders() }].find(({ name, sliders }) => follower.hand(name, sliders));
-      if (!held) return;
-      follower.hand(held.name, held.sliders).forEach((value, k) => held.sliders[k] && held.sliders[k].set("value", value));
-      if (held.path) bringAlong(held);
+      for (const { name, sliders } of [...targets, { name: "theta", sliders: follower.sliders() }]) {
+        follower.hand(name, sliders)?.forEach((value, k) => sliders[k] && sliders[k].set("value", value));
+      }
+      targets.filter(isLate).forEach(bringAlong);
     },
+    ways: () => ways,
     draw() { // gives where they stand
       const { width, height } = renderer.size(), shownAt = [];
       lines.setAttribute("viewBox", `0 0 ${width} ${height}`);
@@ -279,6 +285,7 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, re
     },
     end() {
       over = true;
+      hear("off");
       clearTimeout(rests);
       model.off("change:handles", listen);
       model.off("change:drive", listen);

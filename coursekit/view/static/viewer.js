@@ -149,6 +149,7 @@ function makeViewer() {
           handles.draw(); // the rest waits for the kernel's answer, which would wait for a frame of the target alone
           late = late || setTimeout(stage.moved, 100);
         },
+        moved: stage.moved,
         redraw: () => viewer.set_dirty(),
       });
       wake = stage.wake;
@@ -229,7 +230,7 @@ function makeViewer() {
       const changes = { pose: onPose, theta: onPose, moving: onPose, frame: onPose, labels: onLabels, ghosts: onGhosts, camera: onCamera, description: onText,
         heard: () => follower.isAhead() && onPose(), motion: () => onMotion(null), height: () => (box.style.height = `${model.get("height")}px`) };
       for (const [name, act] of Object.entries(changes)) model.on(`change:${name}`, act);
-      box.coursekit = { stage, viewer, player, follower, page: page() }; // for the browser's console and the tests
+      box.coursekit = { stage, viewer, player, follower, handles, page: page() }; // for the browser's console and the tests
 
       return () => { // the notebook keeps `el` and `model` of what is long gone: nothing may hang on them
         for (const [name, act] of Object.entries(changes)) model.off(`change:${name}`, act);

@@ -2,7 +2,7 @@
 // a page that moves (coursekit/view/reopened.py). Any picture gets its words, and is dark on a dark page. No build.
 (() => {
   const LINE = /^Explorer of [^:]+: [^:]+: joints \(/;
-  const SENTENCE = "Saved without its kernel: the picture can be turned, and joint sliders, where it has them, move the arm. Run the cell for the rest.";
+  const SENTENCE = "Saved without its kernel: the picture can be turned, and its sliders and buttons move the arm. Run the cell for the rest.";
   const STILL = "The picture that was saved. Run the cell to make this explorer move.";
   // Turned over in lightness, each color in its hue: white becomes the page's own ground.
   const DARK = "@media screen { [data-jp-theme-light=false] .ck-light { filter: invert(0.93) hue-rotate(180deg); } }";
