@@ -161,6 +161,8 @@ def test_words_fill_the_room_under_the_controls(opened):
     reached = "(at) => Boolean(document.elementFromPoint(...at)?.closest('.ck-scene'))"
     assert opened.page.evaluate(reached, [left + 9, bottom - 9]), "no words lie over the picture"
     assert max(right for *_, right in lines) > left, "below it they have all of the width"
+    heights = opened.page.eval_on_selector_all(".ck-whole", "all => all.map((one) => one.offsetHeight)")
+    assert heights and max(heights) < 25, "every vector stands on one line"
 
 
 def test_everything_that_can_be_pressed_is_large_enough(opened):

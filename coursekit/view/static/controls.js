@@ -174,16 +174,16 @@ function action(model, el) {
 // Text that changes with the pose. Shown at once; read aloud only when it has come to rest.
 function text(model, el) {
   const shown = element("div", { class: "ck-text", "aria-hidden": "true" }); // a screen reader gets the other copy, once
-  const spoken = element("div", { class: "ck-spoken", role: "status", "aria-live": "polite" });
+  const spoken = element("div", { class: "ck-spoken", role: "status", "aria-live": "polite" }, model.get("value"));
   let timer = null;
   const draw = () => {
-    shown.textContent = model.get("value");
+    const parts = model.get("value").split(/(\([^()]*\))/); // a vector is not broken where it fits on a line
+    shown.replaceChildren(...parts.map((part, i) => (i % 2 ? element("span", { class: "ck-whole" }, part) : part)));
     clearTimeout(timer);
     timer = setTimeout(() => (spoken.textContent = model.get("value")), 600);
   };
   el.append(shown, spoken);
   keepDrawn(model, ["value"], draw);
-  spoken.textContent = model.get("value");
 }
 
 function table(model, el) {

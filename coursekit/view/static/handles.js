@@ -14,8 +14,7 @@ const asideOf = (x, y, wide, others) => others.reduce(([dx, dy], other) => {
   return across < along ? [dx + (right < 0 ? -across : across), dy] : [dx, dy + (down < 0 ? -along : along)];
 }, [0, 0]);
 
-// taken(what, isPoint): a hand has moved "theta" or the target at a path; moved(): its sliders were; redraw(): what stands
-// where has changed
+// taken(what, isPoint): a hand has moved "theta" or the target at a path; moved(): its sliders did; redraw(): handles changed
 function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, moved, redraw }) {
   const layer = element("div", { class: "ck-handles", role: "group", "aria-label": "handles in the picture" });
   const lines = svg("svg", { "aria-hidden": "true" });
