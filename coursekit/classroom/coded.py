@@ -56,9 +56,7 @@ def another_word(exercise: Exercise, function: Callable, examples: list, attempt
     wrong = [e for e, before in zip(examples, attempts, strict=True) if not _is_right(exercise, e, before)]
     for k, name in enumerate(exercise.arguments):
         words = list(dict.fromkeys(str(e.arguments[k]) for e in examples if isinstance(e.arguments[k], str)))
-        if not words or any(part in word for part in mine for word in words):
-            continue
-        for word in mine:
+        for word in [m for m in mine if words and not any(m in w for w in words)]:
             for example in wrong:
                 given = [*example.arguments[:k], word, *example.arguments[k + 1 :]]
                 if _is_right(exercise, example, call(exercise, function, given)):

@@ -179,7 +179,7 @@ def _but_for_the_shape(exercise: Exercise, examples: list[Example], attempts: li
     if not all(a.parts for a in attempts):
         return ""
     answers = [a.parts for a in attempts]
-    if all(e.agrees(parts[::-1]) for e, parts in zip(examples, answers, strict=True)):
+    if len(exercise.shapes) > 1 and all(map(Example.agrees, examples, [a[::-1] for a in answers])):
         return ". The results stand in another order"
     unfit = {k for parts in answers for k, shape in enumerate(exercise.shapes) if not fits(parts[k], shape)}
     for text, change in RESHAPED:
@@ -187,7 +187,8 @@ def _but_for_the_shape(exercise: Exercise, examples: list[Example], attempts: li
             changed = [tuple(change(p) if k in unfit else p for k, p in enumerate(a)) for a in answers]
         except ValueError:  # the shapes do not fit like this either
             continue
-        if all(map(Example.agrees, examples, changed)):
+        fit = all(all(map(fits, parts, exercise.shapes)) for parts in changed)
+        if fit and all(map(Example.agrees, examples, changed)):
             return f". {text}"
     return ""
 

@@ -201,6 +201,8 @@ JOINT_TRANSFORM = Exercise(
         Hint("without_offset", "the joint value is added to the number in the row; it does not replace it"),
         Hint("along_x", "a slide moves along its axis, z: its value goes to d, not to a"),
         Hint("both", "one of the two numbers moves; the other one keeps the value of the row"),
+        Hint("modified", "these are standard rows; you read them as modified ones"),
+        Hint("slide_without_theta", "a slide keeps the angle of its row: theta is constant, not zero"),
     ),
 )
 
@@ -277,5 +279,6 @@ RANGES_TO_DH = Exercise(
         Hint("minus_shift", "theta_DH = at_zero + sense theta_maker: the shift is added"),
         Hint("shift_turned", "only the maker's angle changes its sign, not `at_zero`"),
         Hint("degrees", "the answer is in radians, as the limits are"),
+        Hint("wrapped", "a range may reach beyond 180 deg: take no whole turns away"),
     ),
 )

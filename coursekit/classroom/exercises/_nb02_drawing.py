@@ -77,6 +77,7 @@ JOINT_SCREW = Exercise(
         Hint("slide_not_unit", "the direction of a slide has length 1, as omega has for a hinge"),
         Hint("slide_with_lever", "nothing turns in a slide: no -w x q; its v is the direction alone"),
         Hint("both_halves", "a slide has omega = 0: the direction stands in the lower half only"),
+        Hint("slide_of_q", "a slide has a direction and no place: its v is along w, whatever q is"),
     ),
 )
 
@@ -233,5 +234,8 @@ FROM_ANOTHER_FRAME = Exercise(
         Hint("inverse", "T maps from the old frame to the new one: no inverse is needed"),
         Hint("M_right", "T is the pose of the old frame in the new one: it stands on the left of M"),
         Hint("moved_as_body", "Ad(T) maps S as it is; Ad(T^-1) is for the way back"),
+        Hint("body", "these are body screws, seen from the tool: here the new space frame looks at S"),
+        Hint("only_turned", "the screws move as well as turn: Ad(T) has [p] R in its lower left block"),
+        Hint("M_shifted", "M turns with the frame, too: T M, not M with p added"),
     ),
 )

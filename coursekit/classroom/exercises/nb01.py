@@ -6,17 +6,8 @@ import numpy as np
 
 from coursekit.classroom.exercise import POSE, Block, Edge, Exercise, Hint
 from coursekit.classroom.exercises import _nb01 as inputs
+from coursekit.classroom.exercises import _nb01_gaps as gaps
 from coursekit.classroom.exercises import looks
-from coursekit.classroom.exercises._axes import (
-    NEAR,
-    between,
-    deg,
-    is_rotation,
-    mm,
-    pose_gap,
-    screws_gap,
-    turn,
-)
 from coursekit.classroom.exercises._nb01_tables import DH_TABLE, JOINT_TRANSFORM, RANGES_TO_DH
 
 # What the student's functions may call from coursekit.kinematics.
@@ -30,110 +21,6 @@ ALLOW = (
     "rotations.roty",
     "rotations.rotz",
 )
-
-
-# ---- how far a wrong answer misses
-
-
-def _mm(length):
-    return f"{1000 * length + 0.0:.4g} mm"
-
-
-def _axes_gap(T, right, names):
-    for k, what in names:
-        if (angle := between(T[:3, k], right[:3, k])) > NEAR:
-            return f"{what}; yours points {deg(angle)} away from there"
-    return ""
-
-
-def _dh_gap(args, T, right):
-    a, alpha, d, theta = args
-    p, far = T[:3, 3], np.hypot(*T[:2, 3])
-    if abs(p[2] - d) > NEAR:
-        return f"the new frame stands d = {_mm(d)} up the old z axis; yours stands {_mm(p[2])} up"
-    if abs(far - abs(a)) > NEAR:
-        return f"the new frame stands a = {_mm(a)} from the old z axis; yours stands {_mm(far)} from it"
-    if (gap := np.linalg.norm(p - right[:3, 3])) > NEAR:
-        return (
-            "your frame is at the right distance from the old z axis and at the right height, but on another"
-            f" side of it: {mm(gap)} from the right place"
-        )
-    return _axes_gap(
-        T,
-        right,
-        (
-            (
-                0,
-                f"the new x axis is the old one, turned by theta = {np.degrees(theta):.0f} deg"
-                f" about the old z",
-            ),
-            (
-                2,
-                f"the new z axis is the old one, tilted by alpha = {np.degrees(alpha):.0f} deg"
-                f" about the new x",
-            ),
-            (1, "the new y axis is perpendicular to the new x and the new z"),
-        ),
-    )
-
-
-def _mdh_gap(args, T, right):
-    a, alpha, d, theta = args
-    p = T[:3, 3]
-    if abs(p[0] - a) > NEAR:
-        return f"the new frame stands a = {_mm(a)} along the old x axis; yours stands {_mm(p[0])} along it"
-    along = p @ right[:3, 2]
-    if abs(along - d) > NEAR:
-        return f"the new frame stands d = {_mm(d)} along its own z axis; yours stands {_mm(along)} along it"
-    if (gap := np.linalg.norm(p - right[:3, 3])) > NEAR:
-        return f"d leads along the new z axis alone; your frame stands {mm(gap)} beside it"
-    return _axes_gap(
-        T,
-        right,
-        (
-            (
-                2,
-                f"the new z axis is the old one, tilted by alpha = {np.degrees(alpha):.0f} deg"
-                f" about the old x",
-            ),
-            (
-                0,
-                f"the new x axis is the old one, turned by theta = {np.degrees(theta):.0f} deg"
-                f" about the new z",
-            ),
-            (1, "the new y axis is perpendicular to the new x and the new z"),
-        ),
-    )
-
-
-def _tool_gap(args, T, right):
-    return pose_gap(T, right, "tool")
-
-
-def _motion_gap(args, T, right):
-    """Where a point of the axis lands, then how far the body turns."""
-    S, theta = args
-    (w, v), R, p = (S[:3], S[3:]), T[:3, :3], T[:3, 3]
-    turned = turn(R) if is_rotation(R) else np.nan
-    if not w.any():
-        if turned > NEAR:
-            return f"a slide turns nothing; yours turns by {deg(turned)}"
-        if (gap := np.linalg.norm(p - theta * v)) > NEAR:
-            goes = f"this slide goes {_mm(theta)} along v"
-            return f"{goes}; yours ends {mm(gap)} from there" if p.any() else f"{goes}; yours does not move"
-        return ""
-    q, slides = np.cross(w, v), theta * (w @ v)
-    if (gap := np.linalg.norm(R @ q + p - q - slides * w)) > NEAR:
-        if abs(slides) <= NEAR:
-            return f"a point of the axis must stay where it is; yours is carried {mm(gap)} away"
-        return f"a point of the axis must slide {mm(slides)} along the axis; yours ends {mm(gap)} from there"
-    if (angle := turn(right[:3, :3].T @ R) if is_rotation(R) else 0) > NEAR:
-        return f"the axis is where it should be, but the turn about it is {deg(angle)} away from theta"
-    return ""
-
-
-def _screws_gap(args, S, right):
-    return screws_gap(S, right)
 
 
 # ---- what must hold whatever the inputs
@@ -188,7 +75,7 @@ EXERCISES = [
         edges=inputs.ROWS,
         usual="for other angles",
         blocks=FRAME,
-        residual=_dh_gap,
+        residual=gaps.dh_gap,
         unit="m, rad",
         samples=3,
         hints=(
@@ -221,7 +108,7 @@ EXERCISES = [
         edges=inputs.ROWS,
         usual="for other angles",
         blocks=FRAME,
-        residual=_mdh_gap,
+        residual=gaps.mdh_gap,
         unit="m, rad",
         samples=3,
         hints=(
@@ -253,7 +140,7 @@ EXERCISES = [
         ),
         usual="for other arms",
         blocks=POSE,
-        residual=_tool_gap,
+        residual=gaps.tool_gap,
         laws=(
             ("the tool comes last: it multiplies the pose from the right", _tool_last),
             ("the base comes first: it multiplies the pose from the left", _base_first),
@@ -273,6 +160,11 @@ EXERCISES = [
                 "a row holds a, alpha, d, offset in this order: you read it as a, d, alpha, offset",
             ),
             Hint("read_as_modified", "these are standard rows; you read them as modified ones"),
+            Hint(
+                "tool_each_time",
+                "the tool stands on the last frame alone: multiply by it once, after the loop",
+            ),
+            Hint("theta_first", "dh_transform takes a, alpha, d, theta, in this order"),
         ),
     ),
     JOINT_TRANSFORM,
@@ -287,7 +179,7 @@ EXERCISES = [
         edges=inputs.SCREWS,
         usual="for a hinge",
         blocks=POSE,
-        residual=_motion_gap,
+        residual=gaps.motion_gap,
         laws=(
             ("by theta = 0 nothing moves: the answer is the identity", _nothing_moves_at_zero),
             ("the motion by 2 theta is the motion by theta, done twice", _twice_is_double),
@@ -317,6 +209,7 @@ EXERCISES = [
                 "a turn about the axis alone: a part of v along omega is lost, and a slide does not move",
             ),
             Hint("turned_back", "it turns the wrong way round: check the signs in [omega]"),
+            Hint("two_terms", "the rotation has three terms: (1 - cos(theta)) [omega]^2 is missing"),
         ),
     ),
     Exercise(
@@ -337,7 +230,7 @@ EXERCISES = [
         ),
         usual="for other arms",
         blocks=POSE,
-        residual=_tool_gap,
+        residual=gaps.tool_gap,
         laws=(("with every joint at zero the tool is at its home pose M", _home_at_zero),),
         unit="m, rad",
         samples=3,
@@ -350,6 +243,11 @@ EXERCISES = [
             ),
             Hint(
                 "M_each_time", "M stands there once, after all exponentials: yours comes in with every joint"
+            ),
+            Hint("M_twice", "M stands there once, after all exponentials: yours stands there twice"),
+            Hint(
+                "exp_of_sum",
+                "e^A e^B is not e^(A + B): each joint has its own exponential, and they are multiplied",
             ),
             Hint("body_screws", "you turned S into body screws; with M on the right it must stay as it is"),
             Hint("degrees", "theta is in radians: your numbers are what degrees would give"),
@@ -376,7 +274,7 @@ EXERCISES = [
             Block("the directions (upper rows)", np.s_[:3], plural=True),
             Block("the lower rows (v)", np.s_[3:], plural=True),
         ),
-        residual=_screws_gap,
+        residual=gaps.axes_gap,
         unit="m, rad",
         samples=3,
         laws=(
@@ -391,6 +289,11 @@ EXERCISES = [
             Hint("standard", "these are modified rows: N_i comes from mdh_transform, not from dh_transform"),
             Hint("point_as_v", "v is not the point on the axis: v = -w x q"),
             Hint("one_side", "[z] changes its frame as T [z] T^-1: the factor on its right is missing"),
+            Hint(
+                "inverse_first",
+                "[z] changes its frame as T [z] T^-1: in yours the inverse stands on the left",
+            ),
+            Hint("no_v", "v is all zero: it is the last column of X, and T^-1 is not the transpose of T"),
             Hint("no_base", "these screws are in frame 0: the base takes them to the space frame"),
             Hint("no_offset", "the table's own offsets belong to the frames at theta = 0"),
         ),

@@ -290,6 +290,8 @@ EXERCISES = [
             Hint("all_scaled", "omega has length 1, not all six numbers: scale w first, then take -w x q"),
             Hint("v_not_scaled", "v comes from the direction of length 1, too: scale w first, then -w x q"),
             Hint("q_itself", "the lower half is a velocity, -w x q, not the point q"),
+            Hint("q_scaled", "only w is scaled to length 1: q stays where it is"),
+            Hint("entrywise", "`*` multiplies entry by entry: the cross product is np.cross(w, q)"),
         ),
         laws=(
             ("another point q on the same axis must give the same screw", _any_point_will_do),
@@ -346,6 +348,9 @@ EXERCISES = [
                 "rows_crossed", "np.cross(p, R) crosses p with the rows of R; [p] R does it with the columns"
             ),
             Hint("no_p", "the lower left block is zero only where p is zero"),
+            Hint("no_R", "the lower left block is [p] R: yours is [p] alone"),
+            Hint("R_transposed", "R stands in all blocks as it is, not transposed"),
+            Hint("I_below", "the lower right block is R: the v of a slide turns with the frame, too"),
         ),
         laws=(("Ad(T T) must be Ad(T) Ad(T)", _product),),
     ),

@@ -124,6 +124,7 @@ EXERCISES = [
             Hint(
                 "one_only", "that is one of the two solutions: the elbow can lie on either side of the line"
             ),
+            Hint("no_arccos", "the law of cosines gives cosines: alpha and beta are their arccos"),
             Hint("mixed", "theta2 of one solution stands beside theta3 of the other"),
             Hint("beta", "theta3 turns by pi - beta: beta is an angle of the triangle, pi if stretched"),
         ),
@@ -342,6 +343,11 @@ EXERCISES = [
             Hint("exchanged", "each row is (t1, t2): you have t2 first"),
             Hint("backwards", "both turns go backwards: k2 carries x to z, k1 carries z to y"),
             Hint("heights", "z has the height of y along k1 and that of x along k2; you exchanged them"),
+            Hint("heights_nan", "z has the height of y along k1 and that of x along k2; you exchanged them"),
+            Hint(
+                "without_c",
+                "right for axes at right angles only: k1 and k2 have the product c = k1 . k2 otherwise",
+            ),
             Hint("mixed", "t1 of one solution stands beside t2 of the other"),
             Hint("one_only", "that is one of two: the circles meet in two points"),
         ),

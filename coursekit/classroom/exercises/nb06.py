@@ -370,6 +370,10 @@ EXERCISES = [
             Hint("entries", "entries on a straight line make no rotation: interpolate the turn between them"),
             Hint("angles", "ZYX angles one by one: the tool swerves; take the one turn from R_0 to R_1"),
             Hint("chord", "a straight line between quaternions is right in the middle, uneven elsewhere"),
+            Hint(
+                "far_chord",
+                "q and -q are one attitude: take the nearer; and the straight line between is uneven",
+            ),
             Hint("wrong_side", "the turn R_0^T R_1 is seen from the tool: it stands behind R_0"),
             Hint("from_identity", "your way begins at the identity, not at R_0"),
             Hint("away", "R_1^T R_0 leads from R_1 to R_0: the turn that is left is R_0^T R_1"),

@@ -76,6 +76,16 @@ def joint_both(row, q, kind):
     return right.dh_transform(a, alpha, d + q, theta + q)
 
 
+def joint_modified(row, q, kind):
+    a, alpha, d, theta = row
+    turns = kind == "revolute"
+    return right.mdh_transform(a, alpha, d + (not turns) * q, theta + turns * q)
+
+
+def joint_slide_without_theta(row, q, kind):
+    return right.joint_transform(np.asarray(row) * [1, 1, 1, kind == "revolute"], q, kind)
+
+
 def ranges_not_swapped(limits, sense, at_zero):
     return at_zero[:, None] + sense[:, None] * limits
 
@@ -100,6 +110,10 @@ def ranges_in_degrees(limits, sense, at_zero):
     return np.degrees(right.ranges_to_dh(limits, sense, at_zero))
 
 
+def ranges_wrapped(limits, sense, at_zero):
+    return (right.ranges_to_dh(limits, sense, at_zero) + np.pi) % (2 * np.pi) - np.pi
+
+
 WRONG = {
     "dh_table": {
         "a_for_d": table_with_a_for_d,
@@ -117,6 +131,8 @@ WRONG = {
         "without_offset": joint_without_offset,
         "along_x": joint_along_x,
         "both": joint_both,
+        "modified": joint_modified,
+        "slide_without_theta": joint_slide_without_theta,
     },
     "ranges_to_dh": {
         "not_swapped": ranges_not_swapped,
@@ -125,5 +141,6 @@ WRONG = {
         "minus_shift": ranges_minus_shift,
         "shift_turned": ranges_with_shift_turned,
         "degrees": ranges_in_degrees,
+        "wrapped": ranges_wrapped,
     },
 }

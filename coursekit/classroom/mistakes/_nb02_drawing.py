@@ -37,6 +37,10 @@ def joint_both_halves(kind, w, q):
     return np.concatenate([S[3:], S[3:]]) if kind == "prismatic" else S
 
 
+def joint_slide_of_q(kind, w, q):
+    return right.joint_screw(kind, w, q) if kind == "revolute" else np.append(np.zeros(3), q)
+
+
 def arm_not_turned(lengths):
     M, S = right.home_and_screws(lengths)
     M[:3, :3] = np.eye(3)
@@ -96,6 +100,22 @@ def frame_moved_as_body(S, M, T):
     return right.from_another_frame(S, M, np.linalg.inv(T))[0], T @ M
 
 
+def frame_body_screws(S, M, T):
+    return right.body_screws(S, M), T @ M
+
+
+def frame_only_turned(S, M, T):
+    turned = np.array(T, float)
+    turned[:3, 3] = 0
+    return right.from_another_frame(S, M, turned)[0], T @ M
+
+
+def frame_with_M_shifted(S, M, T):
+    shifted = np.array(M, float)
+    shifted[:3, 3] += T[:3, 3]
+    return right.from_another_frame(S, M, T)[0], shifted
+
+
 WRONG = {
     "joint_screw": {
         "always_hinge": joint_always_hinge,
@@ -104,6 +124,7 @@ WRONG = {
         "slide_not_unit": joint_slide_not_unit,
         "slide_with_lever": joint_slide_with_lever,
         "both_halves": joint_both_halves,
+        "slide_of_q": joint_slide_of_q,
     },
     "home_and_screws": {
         "not_turned": arm_not_turned,
@@ -120,5 +141,8 @@ WRONG = {
         "inverse": frame_inverse,
         "M_right": frame_M_right,
         "moved_as_body": frame_moved_as_body,
+        "body": frame_body_screws,
+        "only_turned": frame_only_turned,
+        "M_shifted": frame_with_M_shifted,
     },
 }

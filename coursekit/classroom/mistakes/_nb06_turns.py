@@ -87,6 +87,11 @@ def slerp_on_the_chord(R_0, R_1, t):
     return rotations.from_quaternion((1 - t) * a + t * b)
 
 
+def slerp_on_the_far_chord(R_0, R_1, t):
+    a, b = rotations.quaternion(R_0), rotations.quaternion(R_1)
+    return rotations.from_quaternion((1 - t) * a + t * b)
+
+
 def slerp_on_the_wrong_side(R_0, R_1, t):
     return lie.exp3(t * right.angle_axis(R_0.T @ R_1)) @ R_0
 
@@ -136,6 +141,7 @@ WRONG = {
         "entries": slerp_of_entries,
         "angles": slerp_of_angles,
         "chord": slerp_on_the_chord,
+        "far_chord": slerp_on_the_far_chord,
         "wrong_side": slerp_on_the_wrong_side,
         "from_identity": slerp_from_identity,
         "away": slerp_away,

@@ -93,6 +93,16 @@ def fk_other_order(rows, theta, base, tool):
     return right.fk_dh(rows[:, [0, 2, 1, 3]], theta, base, tool)
 
 
+def fk_with_tool_each_time(rows, theta, base, tool):
+    links = [right.dh_transform(a, alpha, d, o + t) for (a, alpha, d, o), t in zip(rows, theta, strict=True)]
+    return reduce(np.matmul, [base, *(A @ tool for A in links)])
+
+
+def fk_with_theta_first(rows, theta, base, tool):
+    links = [right.dh_transform(o + t, d, a, alpha) for (a, alpha, d, o), t in zip(rows, theta, strict=True)]
+    return reduce(np.matmul, [base, *links, tool])
+
+
 def exp_v_first(S, theta):
     return right.screw_exp(np.roll(S, 3), theta)
 
@@ -165,6 +175,12 @@ def exp_about_q(S, theta):
     return T
 
 
+def exp_with_two_terms(S, theta):
+    T = right.screw_exp(S, theta)
+    T[:3, :3] = np.eye(3) + np.sin(theta) * np.cross(S[:3], np.eye(3)).T
+    return T
+
+
 def poe_without_M(S, M, theta):
     return right.fk_poe(S, np.eye(4), theta)
 
@@ -185,6 +201,14 @@ def poe_with_body_screws(S, M, theta):
     inverse = np.linalg.inv(M)
     moved = [inverse @ right.screw_exp(s, t) @ M for s, t in zip(S.T, theta, strict=True)]
     return reduce(np.matmul, [*moved, M])
+
+
+def poe_with_M_twice(S, M, theta):
+    return M @ right.fk_poe(S, M, theta)
+
+
+def poe_of_the_sum(S, M, theta):
+    return right.screw_exp(S @ theta, 1) @ M
 
 
 def poe_degrees(S, M, theta):
@@ -239,6 +263,14 @@ def screws_from_one_side(rows, base):
     return _columns([T @ _turn(0, 0, 1) for T in _frames(rows, base)[1:]])
 
 
+def screws_by_the_inverse(rows, base):
+    return _columns([np.linalg.inv(T) @ _turn(0, 0, 1) @ T for T in _frames(rows, base)[1:]])
+
+
+def screws_without_v(rows, base):
+    return right.screws_from_dh(rows, base) * [[1], [1], [1], [0], [0], [0]]
+
+
 def screws_without_base(rows, base):
     return right.screws_from_dh(rows, np.eye(4))
 
@@ -270,6 +302,8 @@ WRONG = {
         "reversed": fk_reversed,
         "other_order": fk_other_order,
         "read_as_modified": fk_read_as_modified,
+        "tool_each_time": fk_with_tool_each_time,
+        "theta_first": fk_with_theta_first,
     },
     "screw_exp": {
         "v_first": exp_v_first,
@@ -284,6 +318,7 @@ WRONG = {
         "terms_exchanged": exp_terms_exchanged,
         "about_q": exp_about_q,
         "turned_back": exp_turned_back,
+        "two_terms": exp_with_two_terms,
     },
     "fk_poe": {
         "no_M": poe_without_M,
@@ -292,6 +327,8 @@ WRONG = {
         "M_each_time": poe_with_M_each_time,
         "body_screws": poe_with_body_screws,
         "degrees": poe_degrees,
+        "M_twice": poe_with_M_twice,
+        "exp_of_sum": poe_of_the_sum,
     },
     "screws_from_dh": {
         "about_x": screws_about_x,
@@ -301,6 +338,8 @@ WRONG = {
         "point_as_v": screws_with_the_point_as_v,
         "one_side": screws_from_one_side,
         "no_base": screws_without_base,
+        "inverse_first": screws_by_the_inverse,
+        "no_v": screws_without_v,
         "no_offset": screws_without_offset,
     },
     **_nb01_tables.WRONG,

@@ -54,6 +54,15 @@ def screw_with_q(w, q):
     return np.concatenate([right.screw_axis(w, q)[:3], q])
 
 
+def screw_with_q_scaled(w, q):
+    return right.screw_axis(w, q / np.linalg.norm(q))
+
+
+def screw_entry_by_entry(w, q):
+    w = right.screw_axis(w, q)[:3]
+    return np.concatenate([w, -w * q])
+
+
 def axis_v_cross_w(S):
     w, q, pitch = right.axis_of(S)
     return w, -q, pitch
@@ -106,6 +115,24 @@ def adjoint_without_p(T):
     return Ad
 
 
+def adjoint_with_p_alone(T):
+    Ad = right.adjoint(T)
+    Ad[3:, :3] = Ad[3:, :3] @ T[:3, :3].T
+    return Ad
+
+
+def adjoint_with_R_transposed(T):
+    turned = np.array(T, float)
+    turned[:3, :3] = T[:3, :3].T
+    return right.adjoint(turned)
+
+
+def adjoint_with_identity_below(T):
+    Ad = right.adjoint(T)
+    Ad[3:, 3:] = np.eye(3)
+    return Ad
+
+
 def body_by_ad_of_M(S, M):
     return right.adjoint(M) @ S
 
@@ -146,6 +173,8 @@ WRONG = {
         "all_scaled": screw_all_scaled,
         "v_not_scaled": screw_with_v_not_scaled,
         "q_itself": screw_with_q,
+        "q_scaled": screw_with_q_scaled,
+        "entrywise": screw_entry_by_entry,
     },
     "axis_of": {
         "v_cross_w": axis_v_cross_w,
@@ -160,6 +189,9 @@ WRONG = {
         "minus_p": adjoint_minus_p,
         "rows_crossed": adjoint_with_rows_crossed,
         "no_p": adjoint_without_p,
+        "no_R": adjoint_with_p_alone,
+        "R_transposed": adjoint_with_R_transposed,
+        "I_below": adjoint_with_identity_below,
     },
     "body_screws": {
         "ad_of_M": body_by_ad_of_M,

@@ -94,6 +94,13 @@ def elbow_plus_square(r, z, lengths):  # Robotics I exam, 17 June 2019, s_3
     return _elbow(r, z, lengths, sign=1)
 
 
+def elbow_without_arccos(r, z, lengths):
+    theta2, theta3 = right.elbow_solutions(r, z, lengths).T
+    phi, psi = -theta2.mean(), theta3.mean()
+    alpha, beta = np.cos(theta2[1] + phi), np.cos(np.pi + psi - theta3[0])
+    return np.array([[-phi - alpha, np.pi - beta + psi], [-phi + alpha, beta - np.pi + psi]])
+
+
 def elbow_one_only(r, z, lengths):
     return right.elbow_solutions(r, z, lengths)[:1]
 
@@ -183,16 +190,20 @@ def distance_one_only(k, x, y, distance):
     return right.subproblem3(k, x, y, distance)[:1]
 
 
-def _between(k1, k2, x, a, b, square):
-    """Both places of z, with the parts along k1 and k2 and the square of its length as given."""
-    n, c = np.cross(k1, k2), k1 @ k2
-    g = np.sqrt(max(square - a * a - b * b - 2 * a * b * c, 0) / (n @ n))
-    return [a * k1 + b * k2 + side * n for side in (g, -g)]
+def _turns(k1, k2, x, y, a, b, c, least=0.0):
+    """Both rows where z = a k1 + b k2 + g n, and no root of less than `least` is taken."""
+    n = np.cross(k1, k2)
+    g = np.sqrt(np.fmax(x @ x - a * a - b * b - 2 * a * b * c, least) / (n @ n))
+    places = [a * k1 + b * k2 + side * n for side in (g, -g)]
+    return np.array([[right.subproblem1(k1, z, y), right.subproblem1(k2, x, z)] for z in places])
 
 
 def turns_at_right_angles(k1, k2, x, y):
-    places = _between(k1, k2, x, k1 @ y, k2 @ x, x @ x)
-    return np.array([[right.subproblem1(k1, z, y), right.subproblem1(k2, x, z)] for z in places])
+    return _turns(k1, k2, x, y, k1 @ y, k2 @ x, k1 @ k2)
+
+
+def turns_without_c(k1, k2, x, y):
+    return _turns(k1, k2, x, y, k1 @ y, k2 @ x, 0)
 
 
 def turns_exchanged(k1, k2, x, y):
@@ -203,11 +214,14 @@ def turns_backwards(k1, k2, x, y):
     return -right.subproblem2(k1, k2, x, y)
 
 
-def turns_with_heights_exchanged(k1, k2, x, y):
+def turns_with_heights_exchanged(k1, k2, x, y, least=0.0):
     c = k1 @ k2
     a, b = np.linalg.solve([[1, c], [c, 1]], [k1 @ x, k2 @ y])
-    places = _between(k1, k2, x, a, b, x @ x)
-    return np.array([[right.subproblem1(k1, z, y), right.subproblem1(k2, x, z)] for z in places])
+    return _turns(k1, k2, x, y, a, b, c, least)
+
+
+def turns_with_heights_exchanged_and_nan(k1, k2, x, y):
+    return turns_with_heights_exchanged(k1, k2, x, y, -np.inf)
 
 
 def turns_mixed(k1, k2, x, y):
@@ -306,6 +320,7 @@ WRONG = {
         "from_floor": elbow_from_the_floor,
         "no_psi": elbow_without_psi,
         "plus_square": elbow_plus_square,
+        "no_arccos": elbow_without_arccos,
         "one_only": elbow_one_only,
         "mixed": elbow_mixed,
         "beta": elbow_with_beta,
@@ -343,6 +358,8 @@ WRONG = {
         "exchanged": turns_exchanged,
         "backwards": turns_backwards,
         "heights": turns_with_heights_exchanged,
+        "heights_nan": turns_with_heights_exchanged_and_nan,
+        "without_c": turns_without_c,
         "mixed": turns_mixed,
         "one_only": turns_one_only,
     },
