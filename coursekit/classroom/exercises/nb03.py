@@ -343,7 +343,10 @@ EXERCISES = [
             Hint("exchanged", "each row is (t1, t2): you have t2 first"),
             Hint("backwards", "both turns go backwards: k2 carries x to z, k1 carries z to y"),
             Hint("heights", "z has the height of y along k1 and that of x along k2; you exchanged them"),
-            Hint("heights_nan", "z has the height of y along k1 and that of x along k2; you exchanged them"),
+            Hint(
+                "heights_nan",
+                "k1 . z is k1 . y, and k2 . z is k2 . x: you exchanged them, and the circles miss",
+            ),
             Hint(
                 "without_c",
                 "right for axes at right angles only: k1 and k2 have the product c = k1 . k2 otherwise",
