@@ -6,11 +6,12 @@ One line of a notebook opens an explorer:
     view.explore(robots.kuka_kr6())
 
 The way of theta from slider to pixel. A hand moves a slider, and in the next frame the page moves the arm, by
-the screws it has (static/follow.js). The slider's value goes to the kernel, where the Panel reads all values
-once and hands them to the explorer. The explorer moves the handles of its Scene, which is data and knows of
-no browser. The Viewer sends what has changed: commands made by meshcat.py, and the pose of all that moves.
-The page draws the kernel's pose as soon as that speaks of the same sliders; and in a motion, where the page
-says which configuration it shows, the Panel puts the sliders there, and all goes the same way.
+the screws it has (static/follow.js), or all arms that are at a target (static/handles.js). The slider's value
+goes to the kernel, where the Panel reads all values once and hands them to the explorer. The explorer moves
+the handles of its Scene, which is data and knows of no browser. The Viewer sends what has changed: commands
+made by meshcat.py, and the pose of all that moves. The page draws the kernel's pose as soon as that speaks of
+the same sliders; and in a motion, where the page says which configuration it shows, the Panel puts the
+sliders there, and all goes the same way.
 
 Everything here is imported when it is first used: `from coursekit import view` alone loads no widget code. In
 a notebook that comes ahead of its use, while one reads on.
