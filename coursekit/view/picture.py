@@ -48,16 +48,19 @@ def png(scene: Scene, width: int = 720, height: int = 440, view: str = "home") -
     things = [
         (part.mesh(coarse=True).moved(worlds[path]), part) for path in shown for part in scene.parts[path]
     ]
-    solid = [thing for thing in things if thing[1].opacity == 1]
-    clear = [([thing], thing[1].opacity) for thing in things if thing[1].opacity < 1]
-    ghosts = [(list(_copies(scene, ghost)), ghost["opacity"]) for ghost in scene.ghosts if ghost["shown"]]
+    opaque = [thing for thing in things if thing[1].opacity == 1]
+    solid = _Layer(eye, opaque, 1)
+    clear = [_Layer(eye, [thing], thing[1].opacity, True) for thing in things if thing[1].opacity < 1]
+    ghosts = [
+        _Layer(eye, _copies(scene, ghost), ghost["opacity"]) for ghost in scene.ghosts if ghost["shown"]
+    ]
     # what shines through, faintly, even where hidden
     xrays = [
-        ([thing for thing in solid if thing[1].xray == xray], xray)
-        for xray in sorted({part.xray for _, part in solid} - {0})
+        _Layer(eye, [thing for thing in opaque if thing[1].xray == xray], xray)
+        for xray in sorted({part.xray for _, part in opaque} - {0})
     ]
     ink = channels(PALETTE["grid"])
-    grid, shadow = _ground(scene, eye, [mesh for mesh, part in solid if part.casts])
+    grid, shadow = _ground(scene, eye, [mesh for mesh, part in opaque if part.casts])
     pixels = np.empty((eye.height, eye.width, 4), np.uint8)
     # in bands: a kernel in the browser keeps for ever the most memory that it once needed
     for start in range(0, eye.height, BAND):
@@ -66,13 +69,13 @@ def png(scene: Scene, width: int = 720, height: int = 440, view: str = "home") -
         lines, shade = (part[rows].reshape(-1, 1) / 255 for part in (grid, 0.2 * shadow))
         canvas = np.hstack([(1 - shade) * lines * ink, lines + shade * (1 - lines)])  # times its opacity
         nothing_near = np.zeros(len(canvas))
-        for copies, opacity in ghosts:
-            _paint(canvas, nothing_near, eye, copies, opacity)
+        for ghost in ghosts:
+            _paint(canvas, nothing_near, eye, ghost)
         near = _paint(canvas, nothing_near, eye, solid)
-        for one, opacity in clear:
-            _paint(canvas, near, eye, one, opacity, both_sides=True)  # a plane has no inside
-        for seen_through, opacity in xrays:
-            _paint(canvas, nothing_near, eye, seen_through, opacity)
+        for one in clear:
+            _paint(canvas, near, eye, one)
+        for seen_through in xrays:
+            _paint(canvas, nothing_near, eye, seen_through)
         pixels[rows] = (np.clip(canvas, 0, 1) * 255).round().reshape(-1, eye.width, 4)
     image = Image.frombytes("RGBa", (eye.width, eye.height), pixels.tobytes())
     image = image.resize((width, height), Image.Resampling.BOX).convert("RGBA")
@@ -114,12 +117,38 @@ class _Eye:
         ), 1 / away
 
 
-def _rasterise(eye, pixel, nearness, faces, both_sides=False):
+class _Layer:
+    """(mesh, part) pairs that are painted at once: what is the same for every band of the picture."""
+
+    def __init__(self, eye, things, opacity, both_sides=False):  # both sides: a plane has no inside
+        things = list(things)
+        meshes = [mesh for mesh, _ in things]
+        vertices, faces = _together(meshes)
+        self.pixel, self.nearness = eye.project(vertices)
+        self.faces = _facing(self.pixel, faces, both_sides)
+        self.normals = np.concatenate([np.empty((0, 3)), *(mesh.normals for mesh in meshes)])
+        look = np.array([[*channels(color(part.color)), part.glow] for _, part in things]).reshape(-1, 4)
+        self.look = np.repeat(look, [len(mesh.vertices) for mesh in meshes], axis=0)
+        self.opacity = opacity
+
+
+def _area(a, b, c):
+    """Twice the area of triangles in pixels, corners (2, k) each; below 0 where we see the outside."""
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])  # pixels count downwards
+
+
+def _facing(pixel, faces, both_sides=False):
+    """The triangles of which we see the outside, or a side at all."""
+    area = _area(*(pixel[faces[:, k]].T for k in range(3)))
+    return faces[np.abs(area) > 1e-9 if both_sides else area < -1e-9]
+
+
+def _rasterise(eye, pixel, nearness, faces):
     """What the triangles cover: pixel (m,), corners (m, 3), barycentric weights (m, 3), nearness (m,)."""
-    (ax, ay), (bx, by), (cx, cy) = (pixel[faces[:, k]].T for k in range(3))
-    area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-    faced = np.abs(area) > 1e-9 if both_sides else area < -1e-9  # pixels count downwards
-    faces, area, ax, ay, bx, by, cx, cy = (v[faced] for v in (faces, area, ax, ay, bx, by, cx, cy))
+    height = pixel[faces, 1]
+    faces = faces[(height.min(axis=1) < eye.rows[1]) & (height.max(axis=1) > eye.rows[0])]
+    (ax, ay), (bx, by), (cx, cy) = a, b, c = [pixel[faces[:, k]].T for k in range(3)]
+    area = _area(a, b, c)
     # Row by row and not over the bounding box, huge for a thin rod that runs askew. Pixel centres lie at 0.5;
     # a span begins a pixel early and ends one late, and the weights decide.
     top, bottom = (f(f(ay, by), cy).clip(*eye.rows) for f in (np.minimum, np.maximum))
@@ -155,31 +184,29 @@ def _runs(start, end):
     return run, start[run] + np.arange(len(run)) - np.repeat(np.cumsum(count) - count, count)
 
 
-def _paint(canvas, near, eye, things, opacity=1.0, both_sides=False):
-    """Paint (mesh, part) pairs onto the canvas where they are nearer than `near`; the new nearness."""
-    if not things:
+def _paint(canvas, near, eye, layer):
+    """Paint a layer onto the canvas where it is nearer than `near`; the new nearness."""
+    at, corners, weights, depth = _rasterise(eye, layer.pixel, layer.nearness, layer.faces)
+    if not len(at):
         return near
-    vertices, faces = _together([mesh for mesh, _ in things])
-    normals = np.concatenate([mesh.normals for mesh, _ in things])
-    look = np.array([[*channels(color(part.color)), part.glow] for _, part in things])
-    look = np.repeat(look, [len(mesh.vertices) for mesh, _ in things], axis=0)
-    at, corners, weights, depth = _rasterise(eye, *eye.project(vertices), faces, both_sides)
     nearest = near.copy()
     np.maximum.at(nearest, at, depth)
     seen = (depth >= nearest[at]) & (depth > near[at])
     at, corners, weights = at[seen], corners[seen], weights[seen]
-    normal = np.einsum("ij,ijk->ik", weights, normals[corners])
-    paint = look[corners[:, 0]]
+    normal = np.einsum("ij,ijk->ik", weights, layer.normals[corners])
+    paint = layer.look[corners[:, 0]]
     shown = _shade(paint[:, :3], normal, paint[:, 3], eye).clip(0, 1)
-    canvas[at] = (1 - opacity) * canvas[at] + opacity * np.column_stack([shown, np.ones(len(at))])
+    paint = np.column_stack([shown, np.ones(len(at))])
+    canvas[at] = (1 - layer.opacity) * canvas[at] + layer.opacity * paint
     return nearest
 
 
 def _together(meshes):
     """All vertices and all faces of several meshes."""
-    starts = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes[:-1]])
-    faces = [mesh.faces + start for mesh, start in zip(meshes, starts, strict=True)]
-    return np.concatenate([mesh.vertices for mesh in meshes]), np.concatenate(faces)
+    starts = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes])
+    faces = [mesh.faces + start for mesh, start in zip(meshes, starts, strict=False)]
+    vertices = [np.empty((0, 3)), *(mesh.vertices for mesh in meshes)]
+    return np.concatenate(vertices), np.concatenate([np.empty((0, 3), int), *faces])
 
 
 def _shade(base, normal, glow, eye):
@@ -218,7 +245,8 @@ def _ground(scene, eye, casting):
     if casting and eye.position[2] > scene.floor:
         points, faces = _together(casting)
         points = points - KEY * ((points[:, 2:] - scene.floor) / KEY[2])
-        mask.ravel()[_rasterise(eye, *eye.project(points), faces)[0]] = 255
+        pixel, nearness = eye.project(points)
+        mask.ravel()[_rasterise(eye, pixel, nearness, _facing(pixel, faces))[0]] = 255
     soft = Image.fromarray(mask).filter(ImageFilter.GaussianBlur(4 * FINER))
     return np.asarray(image), np.asarray(soft)
 
