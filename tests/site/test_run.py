@@ -114,6 +114,7 @@ def work(browser, run, served, tmp_path_factory):
     with Student(browser, served.url) as student:
         student.go()
         student.run("setup")
+        told["asked last"] = student.run("ex-dh-transform", "import sys; print(sys.path[-1:])")
         told["wrong"] = (student.run("ex-dh-transform", WRONG), student.run("check-dh-transform"))[1]
         told["right"] = (student.run("ex-dh-transform", RIGHT), student.run("check-dh-transform"))[1]
         told["kernels"] = student.kernels()
@@ -164,6 +165,7 @@ def test_a_check_fails_and_passes_there(work):
 
 def test_python_starts_while_jupyterlab_loads_and_only_once(work):
     assert work["kernels"] == ["early.js"]
+    assert work["asked last"].strip() == "['']"  # first, each import would ask the page for it
 
 
 def test_python_starts_again_when_it_is_told_to(browser, run, served):

@@ -2,16 +2,30 @@
 // its own; in that worker it loads Pyodide as the kernel would, so that the kernel finds it loaded.
 (() => {
   // What the kernel and nearly every first cell import; between two of them the kernel is heard.
-  const FIRST = ["piplite.piplite", "pyodide_kernel", "numpy", "anywidget", "coursekit.view", "coursekit.classroom"];
+  const FIRST = ["piplite.piplite", "pyodide_kernel", "numpy", "coursekit.classroom", "coursekit.view", "anywidget"];
   const LATER = "sympy", QUIET = 5_000; // what cells further down import, once nothing more was asked for so many ms
   const IDLE = 120_000; // ms until a worker that nobody asked for goes
 
+  // What Python need not do: read its own library's directory anew after packages are unpacked, once for each folder of it;
+  // load compiled parts that nobody imports; ask the page, which is busy, for the student's folder before each import.
+  const LESS = `import sys, zipimport
+from pyodide import _package_loader
+zipimport.zipimporter.invalidate_caches = lambda _: None
+_package_loader.get_dynlibs = lambda *_: []
+sys.path.append(sys.path.pop(sys.path.index("")))`;
+
   async function inWorker() {
     let load, started, heard = Infinity;
+    const start = async ({ packages, ...options }) => {
+      const python = await load(options);
+      python.runPython(LESS);
+      await python.loadPackage(packages, { messageCallback() {} });
+      return python;
+    };
     addEventListener("message", () => { heard = performance.now(); });
     // The kernel runs Pyodide's script again, and then finds what runs already. (The script sets the name to other things, too.)
     Object.defineProperty(self, "loadPyodide", {
-      get: () => (options) => (started ||= load(options)),
+      get: () => (options) => (started ||= start(options)),
       set(real) { if (typeof real === "function") load = real; },
     });
     addEventListener("message", ({ data }) => importScripts(data.coursekit), { once: true });

@@ -8,7 +8,10 @@
   // The worker must stand between the page and the server before anything is loaded, so that all of it is kept.
   async function worker() {
     if (!("serviceWorker" in navigator)) return false; // a private window, or a page without https
-    await navigator.serviceWorker.register("service-worker.js?enableCache=false");
+    const registered = navigator.serviceWorker.register("service-worker.js?enableCache=false");
+    registered.catch(() => {}); // told below, where it is waited for
+    if (navigator.serviceWorker.controller) return true; // to look for a newer one takes up to 2 s
+    await registered;
     await navigator.serviceWorker.ready;
     if (navigator.serviceWorker.controller) return true;
     return new Promise((resolve) => {
