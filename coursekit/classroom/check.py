@@ -77,7 +77,7 @@ def check(name: str, function: Callable, show: str | None = None) -> None:
     if found.right:
         remember(name)
         if before := _mended.pop(name, ""):
-            text += f"; {before} was it"
+            text += f"; it was {before}"
     if not found.right:
         _mended[name] = found.mended
     print(f"{MARKS.get(found.kind, '✗')} {name}: {text}")

@@ -26,7 +26,7 @@ from .coded import another_word, ignored, remembers, with_decimals
 from .exercise import NONE, Exercise, fits, misshapen, thaw
 from .library import permitted
 from .plain import in_plain_words
-from .repair import Found, repair
+from .repair import repair
 from .transforms import done_to_the_right_answer
 
 Parts = tuple[np.ndarray, ...]
@@ -65,7 +65,7 @@ class Verdict:
     more  : what is right already, and by how much the rest misses.
     step  : what found it: a hint's key, "done", "repair", "ignored", "already", "residual", ...
     example: number of an example that shows it, -1 if none does.
-    mended: what to say when it is right the next time: "a sign in line 4"; "" if there is nothing to say.
+    mended: what to say when it is right the next time: "line 4: a sign"; "" if there is nothing to say.
     """
 
     kind: str
@@ -134,8 +134,8 @@ def verdict(
         return Verdict("named", text, also, "ignored", first)
     if text := done_to_the_right_answer(exercise, examples, answers):
         return Verdict("named", text, step="done", example=first)
-    if function and (edit := _repaired(exercise, function, examples, good, attempts)):
-        return Verdict("named", edit.text, also, "repair", first, edit.phrase)
+    if function and (text := _repaired(exercise, function, examples, good, attempts)):
+        return Verdict("named", text, also, "repair", first, text.removeprefix("look at "))
     if found := _not_finite(exercise, examples, answers, function):
         return found
     if also:
@@ -282,7 +282,7 @@ def _rows(exercise: Exercise, parts: Parts) -> Parts:
 # ---- 5: where the code is wrong
 
 
-def _repaired(exercise: Exercise, function, examples, good, attempts) -> Found | None:
+def _repaired(exercise: Exercise, function, examples, good, attempts) -> str:
     wrong_first = sorted(range(len(examples)), key=lambda k: (good[k], attempts[k].cost))
     return repair(exercise, function, [examples[k] for k in wrong_first], attempts[wrong_first[0]].cost)
 

@@ -23,17 +23,9 @@ from . import places
 from .lines import line_edits, name_edits
 from .places import LOCALS, PROBE, Place, Variant
 from .sandbox import Sandbox, Stop, Unfit
-from .texts import phrase, sentence
+from .texts import sentence
 
 BUDGET = 600_000  # executed lines, of the student's and of what they call
-
-
-@dataclass(frozen=True)
-class Found:
-    """text: "look at line 4: a sign"; phrase: "a sign in line 4", for the moment when it is mended."""
-
-    text: str
-    phrase: str
 
 
 @dataclass(frozen=True)
@@ -44,8 +36,10 @@ class _Hit:
     what: str
 
 
-def repair(exercise: Exercise, function: Callable, examples: list, cost: int) -> Found | None:
-    """The place and kind of the edit that makes the function right on all examples; None if there is no one.
+def repair(exercise: Exercise, function: Callable, examples: list, cost: int) -> str:
+    """ "look at line 4: a sign": place and kind of the edit that makes the function right on all examples.
+
+    '' if there is none.
 
     examples : of `verdict.Example`, those where the function is wrong first
     cost : lines that one call of the function executes
@@ -53,20 +47,19 @@ def repair(exercise: Exercise, function: Callable, examples: list, cost: int) ->
     try:
         search = _Search(exercise, function, examples, max(1, BUDGET // max(cost, 12)))
     except Unfit:
-        return None
+        return ""
     with np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # what an edit is warned of is not the student's matter
         hits = search.hits()
     if not hits:
-        return None
+        return ""
     best = min(hit.rank for hit in hits)
     hits = [hit for hit in hits if hit.rank == best]
     lines = sorted({hit.line - search.first + 1 if hit.line else 0 for hit in hits})
     if len(lines) > 2 or lines[-1] - lines[0] > 1:
-        return None  # it could be here or there
+        return ""  # it could be here or there
     kinds = [(hit.kind, hit.what) for hit in hits]
-    text = sentence(kinds, lines, search.body)
-    return Found(text, phrase(kinds, lines, search.body)) if text else None
+    return sentence(kinds, lines, search.body)
 
 
 class _Search:

@@ -62,15 +62,10 @@ EVERY = {
 }
 
 
-def phrase(kinds: list[tuple[str, str]], lines: list[int], body: int = 2) -> str:
-    """ "a sign in line 4": what it was, for the moment when it is mended. body: the line it begins in."""
-    where = _lines(lines, body)
-    return f"{_what(kinds)} in {where}" if where else _what(kinds)
-
-
 def sentence(kinds: list[tuple[str, str]], lines: list[int], body: int = 2) -> str:
     """ "look at line 4: a sign", from the kinds of all edits that would do, and their lines.
 
+    body: the line in which it begins.
     '' where neither a line nor a kind can be told.
     """
     where, what = _lines(lines, body), _what(kinds)
