@@ -61,7 +61,7 @@ def _blocks(exercise: Exercise, masks: list) -> str:
         return ""
     if len(bad) == 1:
         detail = _entries_of(bad[0], masks)
-        if len(good) > 3:  # rather the one that is wrong than a list of all that are right
+        if len(good) > 2:  # rather the one that is wrong than a list of all that are right
             be = "are" if bad[0].plural else "is"
             return f"{bad[0].text} {be} wrong{detail}; the other {len(good)} parts of the answer are right"
         return f"{_said(good)} right, {bad[0].text} {'are' if bad[0].plural else 'is'} not{detail}"
@@ -160,7 +160,10 @@ def _cases(examples: list, good: list[bool]) -> str:
     wrong = [n for n in names if not all(fine[n])]
     if not right or not wrong:
         return ""
-    return f"right {_some(right)}, wrong {_some(wrong)}"
+    both = (("right", right), ("wrong", wrong))
+    (few, these), (most, others) = sorted(both, key=lambda told: len(told[1]))  # the shorter list is enough
+    rest = _joined(others) if len(others) < 3 else f"in the {len(others)} other cases"
+    return f"{few} {_some(these)}, {most} {rest}"
 
 
 def _some(names: list[str]) -> str:

@@ -313,7 +313,7 @@ def test_levels_tell_more_and_more(monkeypatch, capsys):
         texts[show] = capsys.readouterr().out
     assert texts[None].startswith("✗ home_pose: look at line 4: a sign\n")
     assert texts[None].count("\n") <= 4
-    assert "The rotation, x of the position and y of the position are right" in texts["more"]
+    assert "The height (z) is wrong; the other 3 parts of the answer are right" in texts["more"]
     assert "Look again at" in texts["more"]
     assert texts["more"].count("\n") <= 5, "four lines, one of which may be wrapped"
     assert re.search(r"home_pose\(np.array\(\[[\d.,\s]+\]\)\)", texts["example"])
