@@ -9,7 +9,7 @@ Sources: Lynch & Park, Modern Robotics (2017), section 6.2; Panda programming as
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
+import numpy as np  # but numpy.random, loaded where it is used: hence its name in quotes
 from numpy.typing import ArrayLike
 
 from .. import checks
@@ -147,7 +147,7 @@ def damped_least_squares(
     tol: float = 1e-10,
     rows: str = "all",
     restarts: int = 0,
-    rng: np.random.Generator | None = None,
+    rng: "np.random.Generator | None" = None,
 ) -> Numeric:
     """Damped least squares: theta <- theta + J^T (J J^T + k^2 I)^-1 e.
 

@@ -8,7 +8,7 @@ where even the rarest was met many times, one that was never met would have to b
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
+import numpy as np  # but numpy.random, loaded where it is used: hence its name in quotes
 from numpy.typing import ArrayLike
 
 from .. import checks
@@ -62,7 +62,7 @@ def search(
     tol: float = 1e-10,
     rows: str = "all",
     starts: ArrayLike | None = None,
-    rng: np.random.Generator | None = None,
+    rng: "np.random.Generator | None" = None,
 ) -> Found:
     """Distinct solutions for one pose, found downhill from random starts.
 
