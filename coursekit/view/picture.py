@@ -45,14 +45,15 @@ def png(scene: Scene, width: int = 720, height: int = 440, view: str = "home") -
     eye = _Eye(scene.views[view], width * FINER, height * FINER)
     shown = [path for path in scene.parts if scene.visible(path)]
     worlds = scene.worlds(shown)
-    things = [
-        (part.mesh(coarse=True).moved(worlds[path]), part) for path in shown for part in scene.parts[path]
-    ]
+    drawn = cache(lambda path: [(part.mesh(coarse=True), part) for part in scene.parts[path]])
+    things = [(mesh.moved(worlds[path]), part) for path in shown for mesh, part in drawn(path)]
     opaque = [thing for thing in things if thing[1].opacity == 1]
     solid = _Layer(eye, opaque, 1)
     clear = [_Layer(eye, [thing], thing[1].opacity, True) for thing in things if thing[1].opacity < 1]
     ghosts = [
-        _Layer(eye, _copies(scene, ghost), ghost["opacity"]) for ghost in scene.ghosts if ghost["shown"]
+        _Layer(eye, _copies(scene, ghost, drawn), ghost["opacity"])
+        for ghost in scene.ghosts
+        if ghost["shown"]
     ]
     # what shines through, faintly, even where hidden
     xrays = [
@@ -126,6 +127,8 @@ class _Layer:
         vertices, faces = _together(meshes)
         self.pixel, self.nearness = eye.project(vertices)
         self.faces = _facing(self.pixel, faces, both_sides)
+        height = self.pixel[self.faces, 1]
+        self.top, self.bottom = height.min(axis=1), height.max(axis=1)
         self.normals = np.concatenate([np.empty((0, 3)), *(mesh.normals for mesh in meshes)])
         look = np.array([[*channels(color(part.color)), part.glow] for _, part in things]).reshape(-1, 4)
         self.look = np.repeat(look, [len(mesh.vertices) for mesh in meshes], axis=0)
@@ -145,8 +148,6 @@ def _facing(pixel, faces, both_sides=False):
 
 def _rasterise(eye, pixel, nearness, faces):
     """What the triangles cover: pixel (m,), corners (m, 3), barycentric weights (m, 3), nearness (m,)."""
-    height = pixel[faces, 1]
-    faces = faces[(height.min(axis=1) < eye.rows[1]) & (height.max(axis=1) > eye.rows[0])]
     (ax, ay), (bx, by), (cx, cy) = a, b, c = [pixel[faces[:, k]].T for k in range(3)]
     area = _area(a, b, c)
     # Row by row and not over the bounding box, huge for a thin rod that runs askew. Pixel centres lie at 0.5;
@@ -186,9 +187,10 @@ def _runs(start, end):
 
 def _paint(canvas, near, eye, layer):
     """Paint a layer onto the canvas where it is nearer than `near`; the new nearness."""
-    at, corners, weights, depth = _rasterise(eye, layer.pixel, layer.nearness, layer.faces)
-    if not len(at):
+    faces = layer.faces[(layer.top < eye.rows[1]) & (layer.bottom > eye.rows[0])]
+    if not len(faces):
         return near
+    at, corners, weights, depth = _rasterise(eye, layer.pixel, layer.nearness, faces)
     nearest = near.copy()
     np.maximum.at(nearest, at, depth)
     seen = (depth >= nearest[at]) & (depth > near[at])
@@ -223,12 +225,12 @@ def _shade(base, normal, glow, eye):
     return base * light[:, None] + gloss[:, None]
 
 
-def _copies(scene, ghost):
-    """The parts of a ghost, in its color."""
+def _copies(scene, ghost, drawn):
+    """The parts of a ghost, in its color; drawn: path -> [(mesh, part)]."""
     links = [f"{ghost['path']}/{k}" for k in range(1, ghost["n"] + 1)]
     for k, T in enumerate(scene.worlds(links).values(), 1):
-        for part in scene.parts[f"{ghost['src']}/{k}/solid"]:
-            yield part.mesh(coarse=True).moved(T), replace(part, color=ghost["color"])
+        for mesh, part in drawn(f"{ghost['src']}/{k}/solid"):
+            yield mesh.moved(T), replace(part, color=ghost["color"])
 
 
 def _ground(scene, eye, casting):
