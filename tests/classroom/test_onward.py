@@ -93,3 +93,22 @@ def test_a_list_that_is_one_of_many_right_answers_is_taken_as_an_array(capsys):
     lengths = np.array([0.68, 0.15, 0.87, 1.08, 0.165])
     yours(dh_table, lengths, course=np.array(dh_table(lengths)))
     assert capsys.readouterr().out == "dh_table: yours and the course's agree.\n"
+
+
+def test_lists_go_on_as_arrays(capsys):
+    """A check takes lists; the cells below multiply and slice what they get."""
+    w, q = np.array([0.0, 0, 2]), np.array([0.5, 0, 0])
+
+    def screw_axis(w, q):
+        return [0, 0, 1, 0, -0.5, 0]
+
+    def from_another_frame(S, M, T):
+        return [S.tolist(), M.tolist()]
+
+    S = use(screw_axis, course=lambda w, q: np.array([0, 0, 1, 0, -0.5, 0]))(w, q)
+    np.testing.assert_array_equal(0.5 * S, [0, 0, 0.5, 0, -0.25, 0])
+    S, M = yours(
+        from_another_frame, np.ones((6, 2)), np.eye(4), np.eye(4), course=(np.ones((6, 2)), np.eye(4))
+    )
+    assert (S[:, 0].shape, M[:3, 3].shape) == ((6,), (3,))
+    assert "agree" in capsys.readouterr().out
