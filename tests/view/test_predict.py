@@ -258,7 +258,9 @@ def test_the_velocity_of_the_tool(robot, opened):
     for _ in range(2):
         j = int(panel.line.value.split("joint ")[1].split()[0]) - 1
         v, at = robot.jacobian_geometric(panel.values["theta"])[3:, j], tool(robot, panel.values["theta"])
+        assert not panel.formula[0].value, "its columns are the answers"
         assert "Right: 0 deg off." in answer(panel, at + v / np.linalg.norm(v))
+        assert panel.formula[0].value
         press(panel, "next_question")
     panel.set(theta=panel.values["theta"] + 0.01)
     assert panel.line.value.startswith(questions.MOVED)

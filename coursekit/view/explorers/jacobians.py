@@ -149,7 +149,9 @@ class _Jacobians(yours.Jacobians, Explorer):
             self.scene[f"{self.arm.columns}/{k}"].move(arrow_at(v, tool))
 
     def formula(self, values):
-        """The columns of the Jacobian."""
+        """The columns of the Jacobian: what each joint does to the tool, which is what is asked."""
+        if self.asking:
+            return []
         J = self.robot.jacobian_geometric(values["theta"])
         columns = (
             f"column {k}: joint {k} at 1 {'rad' if turns else 'm'}/s moves the tool point by "
