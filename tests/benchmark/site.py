@@ -131,6 +131,7 @@ def memory(visit):
     import nbformat
 
     page = visit.page
+    page.evaluate(CLOSE)  # of the one that is open: one at a time
     most = 0
     for path in sorted((ROOT / "notebooks").glob("*.ipynb")):
         name = f"solved_{path.name}"
