@@ -42,20 +42,21 @@ function sharedRenderer(MeshCat) {
 function coarsePicture(THREE, context) {
   const shared = page();
   let image = null;
-  return function draw(gl, scene, camera) {
-    const { width, height } = context.canvas;
+  const draw = (gl, scene, camera, width, height) => {
     if (!shared.coarse) { // for all views: one that is closed leaves nothing behind
       shared.coarse = new THREE.WebGLRenderTarget(width, height);
       shared.coarse.texture.encoding = THREE.sRGBEncoding;
     }
-    const target = shared.coarse;
-    target.setSize(width, height);
+    shared.coarse.setSize(width, height);
+    gl.setRenderTarget(shared.coarse);
+    gl.render(scene, camera);
+    gl.setRenderTarget(null);
+  };
+  const show = (gl) => {
+    const { width, height } = context.canvas;
     if (!image || image.width !== width || image.height !== height) image = new ImageData(width, height);
     const bytes = new Uint8Array(4 * width * height);
-    gl.setRenderTarget(target);
-    gl.render(scene, camera);
-    gl.readRenderTargetPixels(target, 0, 0, width, height, bytes);
-    gl.setRenderTarget(null);
+    gl.readRenderTargetPixels(shared.coarse, 0, 0, width, height, bytes);
     for (let y = 0; y < height; y += 1) { // WebGL counts rows from below
       image.data.set(bytes.subarray(4 * width * (height - 1 - y), 4 * width * (height - y)), 4 * width * y);
     }
@@ -65,6 +66,7 @@ function coarsePicture(THREE, context) {
     }
     context.putImageData(image, 0, 0);
   };
+  return { draw, show };
 }
 
 // What meshcat's Viewer takes for its renderer: the page's one renderer, drawing into this view's own canvas.
@@ -73,7 +75,7 @@ function canvasRenderer(MeshCat) {
   const canvas = document.createElement("canvas");
   const context = canvas.getContext("2d");
   const inUse = new MeshCat.THREE.Vector2();
-  const drawCoarsely = coarsePicture(MeshCat.THREE, context);
+  const coarse = coarsePicture(MeshCat.THREE, context);
   let width = 1, height = 1, ratio = 1, w = 1, h = 1; // w, h: pixels of the frame that is drawn
   const facade = {
     domElement: canvas,
@@ -86,10 +88,6 @@ function canvasRenderer(MeshCat) {
       [width, height] = [w, h];
       canvas.style.width = `${w}px`;
       canvas.style.height = `${h}px`;
-    },
-    fitCanvas() { // which empties it: not before there is something to show
-      if (canvas.width !== w) canvas.width = w;
-      if (canvas.height !== h) canvas.height = h;
     },
     // When the graphics process has drawn what `render` told it to. Copying before would wait for it, and the page with it.
     async drawn() {
@@ -111,8 +109,7 @@ function canvasRenderer(MeshCat) {
       gl.shadowMap.needsUpdate = shadowNow;
       if (shadowNow) facade.shadowsStale = false;
       if (facade.coarseness < 1) {
-        facade.fitCanvas();
-        return drawCoarsely(gl, scene, camera);
+        return coarse.draw(gl, scene, camera, w, h);
       }
       gl.getSize(inUse);
       if (inUse.x < w || inUse.y < h) gl.setSize(Math.max(w, inUse.x), Math.max(h, inUse.y), false);
@@ -122,9 +119,11 @@ function canvasRenderer(MeshCat) {
       gl.setScissorTest(true);
       gl.render(scene, camera);
     },
-    show() { // a full frame
-      const { domElement } = sharedRenderer(MeshCat);
-      facade.fitCanvas();
+    show() { // the frame that was drawn
+      const gl = sharedRenderer(MeshCat), { domElement } = gl;
+      if (canvas.width !== w) canvas.width = w; // which empties it: not before there is something to show
+      if (canvas.height !== h) canvas.height = h;
+      if (facade.coarseness < 1) return coarse.show(gl);
       context.clearRect(0, 0, w, h);
       context.drawImage(domElement, 0, domElement.height - h, w, h, 0, 0, w, h);
     },
@@ -213,6 +212,7 @@ function makeStage(MeshCat, pane, quality) {
   const levels = { auto: [1, 0.5, 0.35], low: [0.5, 0.35], high: [1] }[quality];
   const cost = new Map(shared.cost); // milliseconds of a frame at each level, as far as known, also from another view
   const levelNow = () => {
+    if (!shared.cost) return levels[1] || 1; // the first frame of a page: a sharp one follows at once
     if (performance.now() - lastMotion > 150) return 1;
     return levels.find((level) => (cost.get(level) || 0) < QUICK) || levels.at(-1);
   };
@@ -246,14 +246,12 @@ function makeStage(MeshCat, pane, quality) {
       renderer.coarseness = wanted;
       const begun = performance.now();
       viewer.render();
-      if (wanted === 1) {
-        if (!(cost.get(1) < QUICK)) {
-          shared.drawing = true;
-          await renderer.drawn().finally(() => (shared.drawing = false));
-          if (dead) return;
-        }
-        renderer.show();
+      if (!shared.cost || (wanted === 1 && !(cost.get(1) < QUICK))) {
+        shared.drawing = true;
+        await renderer.drawn().finally(() => (shared.drawing = false));
+        if (dead) return;
       }
+      renderer.show();
       learn(wanted, performance.now() - begun);
       stage.frames += 1;
       clearTimeout(sharpen);
