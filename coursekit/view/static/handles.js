@@ -20,7 +20,7 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, mo
   const lines = svg("svg", { "aria-hidden": "true" });
   layer.append(lines);
   pane.append(layer);
-  let targets = [], grips = [], over = false, ways = []; // targets: each with its sliders; ways: arms brought along
+  let targets = [], grips = [], over = false, puts = false, ways = []; // targets: each with its sliders; ways: arms brought along
 
   // --- from metres to pixels: a point of the space frame on the screen
   const point = new THREE.Vector3(), eye = new THREE.Vector3();
@@ -50,12 +50,14 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, mo
 
   // --- sliders: set here at once, and told to the kernel in one message, of which the latest wins
   const put = (what, sliders, values, live) => {
+    puts = true; // who calls decides when it is drawn
     values.forEach((value, k) => {
       if (!sliders[k]) return;
       const inside = Math.min(sliders[k].get("max"), Math.max(sliders[k].get("min"), value));
       sliders[k].set("value", Number(inside.toPrecision(15)));
       sliders[k].set("touched", sliders[k].get("touched") + 1); // the arm follows, and whoever waits for the kernel
     });
+    puts = false;
     const count = (model.get("dragged")?.count || 0) + 1, touched = touchesOf(sliders);
     model.set("dragged", { what, values: sliders.map((slider) => slider && slider.get("value")), live, count, touched });
     model.save_changes();
@@ -65,11 +67,11 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, mo
     taken(target.name, isPoint(target));
   };
   const bringAlong = (target) => { // as far as it goes in small steps: the kernel knows all ways, and why one ends
-    viewer.set_transform(target.path, targetPose(target));
-    const { goal, arms, ...arm } = model.get("reaching");
+    const T = targetPose(target), { goal, arms, ...arm } = model.get("reaching");
+    viewer.set_transform(target.path, T);
     if (goal !== target.name) return;
-    ways = Object.entries(arms).map(([path, theta]) => ({ path: splitPath(path), ...reachFor(arm, theta, targetPose(target)) }));
-    for (const { path, D, far } of ways) if (far < NEAR) D.forEach((T, k) => viewer.set_transform([...path, String(k + 1)], T));
+    ways = Object.entries(arms).map(([path, theta]) => ({ path: splitPath(path), ...reachFor(arm, theta, T) }));
+    for (const { path, D, far } of ways) if (far < NEAR) D.forEach((link, k) => viewer.set_transform([...path, String(k + 1)], link));
   };
   // Whether it stands elsewhere than its sliders say, of which the kernel has not spoken yet.
   const isLate = (target) => {
@@ -210,7 +212,8 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, mo
     hear("on");
     rebuild();
   };
-  const hear = (how) => targets.forEach(({ sliders }) => sliders.forEach((slider) => slider[how]("change:value", moved)));
+  const slid = () => puts || moved();
+  const hear = (how) => targets.forEach(({ sliders }) => sliders.forEach((slider) => slider[how]("change:value", slid)));
   model.on("change:handles", listen);
   model.on("change:drive", listen);
   listen();

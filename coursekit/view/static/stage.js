@@ -108,9 +108,7 @@ function canvasRenderer(MeshCat) {
       const shadowNow = facade.shadows && facade.shadowsStale && facade.coarseness === 1;
       gl.shadowMap.needsUpdate = shadowNow;
       if (shadowNow) facade.shadowsStale = false;
-      if (facade.coarseness < 1) {
-        return coarse.draw(gl, scene, camera, w, h);
-      }
+      if (facade.coarseness < 1) return coarse.draw(gl, scene, camera, w, h);
       gl.getSize(inUse);
       if (inUse.x < w || inUse.y < h) gl.setSize(Math.max(w, inUse.x), Math.max(h, inUse.y), false);
       gl.getSize(inUse);
