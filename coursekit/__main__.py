@@ -14,7 +14,8 @@ EXAMPLES = """examples:
   coursekit grade SUBMISSIONS OUT --jobs 2     grades.csv and a page for each student
   coursekit COMMAND --help                     what a command takes
 
-exit codes: 0 done; 1 stopped by an error of ours; 2 not done: the sentence says what is missing or wrong
+exit codes: 0 done; 1 stopped by an error of ours; 2 not done: the sentence says what is missing or wrong;
+130 stopped with Ctrl-C
 """
 
 
@@ -33,7 +34,13 @@ def main(argv: list[str] | None = None) -> int:
         if not (error.name or "").startswith(("coursekit.classroom", "coursekit.site")):
             raise
         print(f"coursekit {options.command} is not part of the students' version", file=sys.stderr)
-    except (ValueError, OSError) as error:
+    except KeyboardInterrupt as stopped:
+        print(f"coursekit {options.command}: stopped{stopped}", file=sys.stderr)
+        return 130  # as shells say it
+    except OSError as error:  # without its number
+        why = f"{error.filename}: {error.strerror}" if error.filename and error.strerror else error
+        print(f"coursekit {options.command}: {why}", file=sys.stderr)
+    except ValueError as error:
         print(f"coursekit {options.command}: {error}", file=sys.stderr)
     return 2
 

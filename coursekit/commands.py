@@ -98,19 +98,22 @@ def _grade(options: Namespace) -> None:
 
     course = _course_of(options, options.submissions)
     verify(course)
-    summary = grade.grade_class(
-        options.submissions,
-        options.out,
-        jobs=options.jobs,
-        seed=options.seed,
-        box=not options.no_box,
-        regrade=False if options.regrade is None else options.regrade or True,
-        roster_path=options.roster,
-        follow_on=options.follow_on,
-        lines=not options.no_lines,
-        late=options.late,
-        course=course,
-    )
+    try:
+        summary = grade.grade_class(
+            options.submissions,
+            options.out,
+            jobs=options.jobs,
+            seed=options.seed,
+            box=not options.no_box,
+            regrade=False if options.regrade is None else options.regrade or True,
+            roster_path=options.roster,
+            follow_on=options.follow_on,
+            lines=not options.no_lines,
+            late=options.late,
+            course=course,
+        )
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt("; what is graded is kept: run it again, and it goes on") from None
     print(summary)
 
 

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from coursekit.classroom.author.notebook import student_version
+from coursekit.classroom.grader.box import bubblewrap, no_boxes_inside
 
 FULL = (2, 3, 3, 4)
 NO_FK = (0, 3, 3, 4)
@@ -271,6 +272,35 @@ def tidied_up_in_the_end(notebook):
     return with_cell(notebook, "del np")
 
 
+@kind(FULL)
+def imports_deleted(notebook):
+    """All checks were passed before, here too."""
+    return {**notebook, "cells": [c for c in notebook["cells"] if "import numpy" not in c["source"]]}
+
+
+cell_kind("twenty_thousand_shell_lines", "x = !ls\n" * 20_000)
+fk_kind(
+    "warnings_are_errors_and_output_is_closed",
+    FULL,
+    "return right(theta, l1, l2)",
+    before="""
+import os, sys, warnings
+warnings.simplefilter("error")
+sys.stdout.close(), sys.stderr.close(), sys.stdin.close()
+for descriptor in (0, 1, 2):
+    os.close(descriptor)
+np.seterr(all="raise")
+sys.setrecursionlimit(60)
+""",
+)
+
+
+@kind(FULL, note="was handed out to <b>x</b>")
+def marks_that_lie(notebook):
+    mark = {"student": "<b>x</b>", "version": {"a": "9" * 5000}, "cells": 3}
+    return {**notebook, "metadata": {"coursekit": mark}}
+
+
 @kind(NO_FK, "the line `fk = fk(")
 def a_value_with_the_name_of_the_function(notebook):
     return with_cell(notebook, "fk = fk(np.array([0.1, 0.2]), 1, 1)")
@@ -462,7 +492,48 @@ shell.user_expressions = lie
 """,
 )
 
+RUNNERS = """
+import gc, types
+functions = [x for x in gc.get_objects() if isinstance(x, types.FunctionType)]
+for one in functions:
+    if one.__name__ == "one" and one.__code__.co_filename.endswith("runner.py"):
+        one.__code__ = (lambda function, call, request: REPLY).__code__
+"""
+for name, reply in {
+    "the_runner_says_right": "{'parts': [{'shape': [2], 'values': ['0'] * 2}], 'changed': '', 'right': True}",
+    "the_runner_says_a_number_without_end": "{'error': 'E', 'text': '1' * 300_000}",
+}.items():
+    fk_kind(name, NOTHING, "return np.zeros(2)", before=RUNNERS.replace("REPLY", reply))
+fk_kind(
+    "lying_shape",
+    NO_FK,
+    "return np.zeros(2).view(Shape)",
+    before="""
+class Shape(np.ndarray):
+    shape, size = property(lambda self: (2,)), 2
+    ravel = lambda self, *how: [0.0, 0.0]
+""",
+)
+fk_kind("a_name_of_a_megabyte", NO_FK, "raise type('E' * 10**6, (Exception,), {})('x')", "too long")
+fk_kind("an_array_that_is_everywhere", NO_FK, "return np.broadcast_to(0.0, (10**6, 10**6))", "numbers")
+fk_kind("an_error_without_text", NO_FK, "raise E", before="class E(Exception):\n    __str__ = None")
+
 # ---- looking elsewhere
+
+fk_kind(
+    "looks_for_answers_in_all_frames",
+    NO_FK,
+    """
+import sys
+frame = sys._getframe()
+while frame:
+    for question in filter(lambda x: isinstance(x, dict), frame.f_locals.values()):
+        for name in {"right", "answers", "expected", "examples", "solution", "parts"} & question.keys():
+            return question[name]
+    frame = frame.f_back
+return np.zeros(2)
+""",
+)
 
 fk_kind(
     "reads_the_solution",
@@ -588,6 +659,51 @@ for file in files:
 time.sleep(60)
 """,
     "no answer",
+)
+fk_kind(
+    "floods_the_memory_and_talks_without_end",
+    NO_FK,
+    """
+import os, time
+for _ in range(6):
+    if os.fork() == 0:
+        x = np.ones(60_000_000)
+        time.sleep(60)
+for descriptor in range(3, 20):
+    try:
+        while os.readlink(f"/proc/self/fd/{descriptor}").startswith("pipe"):
+            os.write(descriptor, b"{}\\n" * 1000)
+    except OSError:
+        pass
+""",
+    "of memory",
+)
+fk_kind(
+    "floods_the_memory_by_sockets",
+    NO_FK,
+    """
+import socket, time
+pairs = [socket.socketpair() for _ in range(480)]
+for a, _ in pairs:
+    a.setblocking(False)
+    try:
+        while True:
+            a.send(b"x" * 60_000)
+    except BlockingIOError:
+        pass
+open(0) if len(pairs) < 480 else time.sleep(60)
+""",
+    "no answer",
+)
+fk_kind(
+    "a_namespace_of_its_own",  # in which a file system has no size
+    FULL if not bubblewrap() or no_boxes_inside(bubblewrap()) else NO_FK,
+    """
+import ctypes, os
+if (child := os.fork()) == 0:
+    os._exit(ctypes.CDLL(None).unshare(0x10000000) == 0)
+return right(theta, l1, l2) if os.waitpid(child, 0)[1] == 0 else np.zeros(2)
+""",
 )
 fk_kind(
     "writes_to_the_kernel_of_the_host",

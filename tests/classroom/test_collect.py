@@ -168,6 +168,43 @@ def test_what_cannot_be_read_is_listed_and_the_rest_is_collected(tmp_path):
         assert text in said
 
 
+def test_somebodys_zip_holds_no_more_than_a_class_could_bear(tmp_path, monkeypatch):
+    monkeypatch.setattr(collect, "UNPACKED", 100_000)
+    inner = zipped({f"{k}.ipynb": notebook("x") for k in range(20)})
+    files = {
+        f"ann/{DH}": notebook("a"),
+        "bob.zip": zipped({f"{k}.zip": inner for k in range(9)}),
+        "cem.zip": zipped({DH: notebook("c")}),
+    }
+    said = collect.collect(tree(tmp_path / "in", files), tmp_path / "out")
+    assert collected(tmp_path / "out") == {f"ann/{DH}": notebook("a"), f"cem/{DH}": notebook("c")}
+    assert "bob.zip: cannot be read (too much in it" in said
+    assert said.count("none of the course's notebooks") < 60
+
+
+def test_what_is_no_notebook_is_listed_unless_a_notebook_lies_beside_it(tmp_path):
+    """Browsers save a notebook as text; macOS writes an umlaut in two letters; a name may be a formula."""
+    files = {
+        f"ann/{DH}.txt": notebook("a"),
+        "ann/README.md": b"of the release",
+        "bob/essay.pdf": b"%PDF",
+        "bob/home/photo.jpg": b"jpg",
+        "cem/.DS_Store": b"",
+        f"Mu\u0308ller/{DH}": notebook("1"),
+        f"M\u00fcller/{MSB}.json": notebook("2"),
+        f"=1+1/{DH}": notebook("3"),
+    }
+    said = collect.collect(tree(tmp_path / "in", files), tmp_path / "out")
+    assert collected(tmp_path / "out") == {
+        f"ann/{DH}": notebook("a"),
+        f"M\u00fcller/{DH}": notebook("1"),
+        f"M\u00fcller/{MSB}": notebook("2"),
+        f"_=1+1/{DH}": notebook("3"),
+    }
+    assert said.endswith("no notebook, left aside (1):\n    bob: essay.pdf, photo.jpg")
+    assert f"'=1+1/{DH}" in (tmp_path / "out" / collect.TABLE).read_text("utf-8-sig")
+
+
 def test_names_that_fit_two_students_are_nobodys(tmp_path):
     (tmp_path / "roster.csv").write_text("id,name,email\ns1,Ann Lee,\ns2,Lee Ann,\n")
     said = collect.collect(

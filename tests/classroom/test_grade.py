@@ -21,6 +21,7 @@ import pytest
 from coursekit.classroom.author import notebook
 from coursekit.classroom.course import Course
 from coursekit.classroom.grader import box, grade
+from coursekit.classroom.grader import student as students
 from coursekit.classroom.grader.box import bubblewrap
 from coursekit.classroom.grader.journal import Journal
 from coursekit.classroom.grader.locked import INSIDE
@@ -369,6 +370,32 @@ def test_a_dask_cluster_takes_the_jobs_unchanged(tmp_path, solved):
     ):
         grade_small(tmp_path / "in", tmp_path / "out", executor=client.get_executor(pure=False))
     assert {r["student"]: points(r) for r in records(tmp_path / "out")} == {"ann": FULL, "bob": (0, 3, 3, 4)}
+
+
+def test_slow_definitions_end_with_the_time_of_the_submission(monkeypatch):
+    """Else the worker's own time would be over first, and nobody could ever grade them."""
+    clock = [0.0]
+
+    class SlowBox:
+        cpu = 0.0
+
+        def __init__(self, *_):
+            pass
+
+        def ask(self, request, seconds):
+            clock[0] += 1.9
+            return {}
+
+        def close(self):
+            pass
+
+    monkeypatch.setattr(students, "Box", SlowBox)
+    monkeypatch.setattr(students.time, "monotonic", lambda: clock[0])
+    limits = box.Limits(notebook=30, submission=90)
+    slow = students.Student(["x = time.sleep(1.8)"] * 1000, Path(), limits, None, 4)
+    with pytest.raises(box.BoxLost, match="the notebook took more than 90 s"):
+        slow.ask(COURSE.exercises("nb01")[0], [])
+    assert clock[0] < 95
 
 
 def test_a_large_class_is_never_in_memory_at_once(monkeypatch):

@@ -39,6 +39,20 @@ def test_a_wrong_line_ends_with_2(words, capsys):
     assert "usage: coursekit" in capsys.readouterr().err
 
 
+def test_what_stops_a_command_is_one_sentence(monkeypatch, tmp_path, capsys):
+    """A Ctrl-C while a class is graded, a path that is wrong: no traceback, no number of an error."""
+
+    def stopped(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("coursekit.classroom.grader.grade.grade_class", stopped)
+    assert main(["grade", str(tmp_path), str(tmp_path / "out")]) == 130
+    said = "coursekit grade: stopped; what is graded is kept: run it again, and it goes on\n"
+    assert capsys.readouterr().err == said
+    assert main(["collect", str(tmp_path), str(tmp_path / "out"), "--roster", "nowhere.csv"]) == 2
+    assert capsys.readouterr().err == "coursekit collect: nowhere.csv: No such file or directory\n"
+
+
 def test_the_mathematics_needs_numpy_alone_and_the_rest_says_what_to_install():
     """In a process where only numpy and the standard library can be imported."""
     script = """

@@ -14,6 +14,7 @@ import secrets
 import select
 import shutil
 import signal
+import stat
 import subprocess
 import sys
 import tempfile
@@ -53,6 +54,14 @@ def bubblewrap() -> str | None:
         return None
     attempt = [program, "--unshare-all", "--ro-bind", "/", "/", "true"]
     return program if subprocess.run(attempt, capture_output=True).returncode == 0 else None
+
+
+@cache
+def no_boxes_inside(program: str) -> list[str]:
+    """Who can make namespaces of their own in the box has file systems there without a size."""
+    more = ["--unshare-user", "--disable-userns"]  # bubblewrap knows it from 0.8 on
+    attempt = [program, "--unshare-all", *more, "--ro-bind", "/", "/", "true"]
+    return more if subprocess.run(attempt, capture_output=True, **nobody()).returncode == 0 else []
 
 
 @cache
@@ -98,6 +107,7 @@ class Box:
             **(nobody() if program and _open_to_all(library) else {}),
         )
         self._read = b""
+        self._next_look = time.monotonic() + LOOK
         self.cpu = 0.0  # seconds it used, known when it is closed
         for pipe in (self._process.stdin, self._process.stdout):
             os.set_blocking(pipe.fileno(), False)  # type: ignore[union-attr]
@@ -144,11 +154,16 @@ class Box:
 
     def _line(self, end: float, seconds: float) -> bytes:
         pipe = self._process.stdout.fileno()  # type: ignore[union-attr]
-        while b"\n" not in self._read:
-            left = end - time.monotonic()
-            if left < 0:
+        while True:
+            if (now := time.monotonic()) > self._next_look:  # also while it talks without end
+                self._next_look = now + LOOK
+                if used(self._process.pid) > self.limits.memory:
+                    raise BoxLost(f"used more than {self.limits.memory >> 20} MB of memory")
+            if b"\n" in self._read:
+                break
+            if now > end:
                 raise BoxLost(f"took more than {seconds:g} s")
-            ready, _, _ = select.select([pipe], [], [], min(left, LOOK))
+            ready, _, _ = select.select([pipe], [], [], min(end - now, LOOK))
             if ready:
                 part = os.read(pipe, 1 << 16)
                 if not part:
@@ -156,8 +171,6 @@ class Box:
                 self._read += part
                 if len(self._read) > self.limits.message:
                     raise BoxLost("the reply is too long")
-            elif used(self._process.pid) > self.limits.memory:
-                raise BoxLost(f"used more than {self.limits.memory >> 20} MB of memory")
         line, _, self._read = self._read.partition(b"\n")
         return line
 
@@ -174,11 +187,17 @@ def used(root: int) -> int:
         with contextlib.suppress(OSError):
             for entry in os.scandir(f"/proc/{pid}/fd"):
                 with contextlib.suppress(OSError):
-                    if os.readlink(entry.path).startswith("/memfd:"):
-                        file = os.stat(entry.path)
-                        total += 0 if file.st_ino in seen else 512 * file.st_blocks
+                    file = os.stat(entry.path)
+                    if file.st_ino not in seen and os.readlink(entry.path).startswith(("/memfd:", "socket:")):
                         seen.add(file.st_ino)
+                        total += _of_a_socket() if stat.S_ISSOCK(file.st_mode) else 512 * file.st_blocks
     return total
+
+
+@cache
+def _of_a_socket() -> int:
+    """Bytes that a socket can hold at most: nobody else counts them."""
+    return 2 * int(Path("/proc/sys/net/core/wmem_max").read_text())
 
 
 def cpu(root: int) -> float:
@@ -231,11 +250,25 @@ def _command(library: Path, limits: Limits, program: str | None, home: str, rele
     python += ["-B", str(library / "runner.py"), "released" if released else "locked"]
     python += [] if program is None else [PACKAGES]
     if shutil.which("prlimit"):
-        asked = {"as": limits.memory, "fsize": limits.home, "cpu": limits.cpu, "nproc": limits.processes}
+        asked = {
+            "as": limits.memory,
+            "fsize": limits.home,
+            "cpu": limits.cpu,
+            "nproc": limits.processes,
+            "nofile": 1024,
+        }
         python = ["prlimit", *(f"--{name}={value}" for name, value in {**asked, "core": 0}.items()), *python]
     if program is None:
         return ["env", "-i", *(f"{name}={value}" for name, value in environment.items()), *python]
-    box = [program, "--unshare-all", "--die-with-parent", "--new-session", "--cap-drop", "ALL"]
+    box = [
+        program,
+        "--unshare-all",
+        *no_boxes_inside(program),
+        "--die-with-parent",
+        "--new-session",
+        "--cap-drop",
+        "ALL",
+    ]
     box += ["--hostname", "box", "--clearenv", "--proc", "/proc", "--dev", "/dev"]
     for path in _OF_THE_HOST:  # a root's box could otherwise write there: it has the host's user number
         if os.path.exists(path):

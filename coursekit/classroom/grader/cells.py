@@ -8,6 +8,8 @@ import re
 
 LARGEST = 20_000_000  # bytes of a notebook
 LONGEST = 200_000  # characters of a cell: more takes Python's own reader minutes
+EFFORT = 4_000_000  # characters read of all cells; IPython reads a cell anew for each magic in it
+_MAGIC = re.compile(r"^[ \t]*[%!?/,;]|\?[ \t]*$|=[ \t]*[%!]", re.MULTILINE)
 _RUNS_ITS_BODY = ("time", "timeit", "capture", "prun")  # of the magics that stand above a whole cell
 
 # A module that a cell writes, for others to import: the import system has to look into the folder again.
@@ -41,7 +43,11 @@ def sources(data: bytes) -> tuple[list[str], list[str]]:
         ) from None
     except (ValueError, KeyError, TypeError, RecursionError, AttributeError) as error:
         raise ValueError(f"not a readable notebook ({type(error).__name__})") from None
-    plain = [plain_python(text) for text in code if text.strip()]
+    plain, left = [], EFFORT
+    for text in filter(str.strip, code):
+        if len(text) <= LONGEST:
+            left -= (500 + len(text)) * (1 + len(_MAGIC.findall(text)))
+        plain.append(plain_python(text) if left > 0 else "")
     return plain, [*others, *(text for text in code if text.startswith("%%"))]
 
 

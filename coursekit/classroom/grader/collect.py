@@ -12,6 +12,7 @@ import csv
 import io
 import json
 import os
+import re
 import zipfile
 import zlib
 from collections.abc import Iterator
@@ -23,7 +24,8 @@ from .. import roster
 from ..course import Course, the_course
 from ..document import mark_of
 from .cells import LARGEST
-from .naming import Register, Told, notebook_of, told
+from .naming import NOTEBOOK, Register, Told, notebook_of, told
+from .report import harmless
 
 ARCHIVES = (".zip", ".tar", ".gz", ".7z", ".rar")
 TABLE = "collected.csv"
@@ -31,6 +33,7 @@ COLUMNS = ("student", "notebook", "submitted", "late", "canvas", "moodle", "from
 DEEPEST = 4  # zips in zips
 LARGEST_ARCHIVE = 500_000_000  # bytes of a zip in a zip
 MOST = 200_000  # files
+UNPACKED = 200_000_000  # bytes that somebody's zip may hold, all zips in it too, beside 20 times its own
 
 
 @dataclass(frozen=True)
@@ -65,26 +68,27 @@ def collect(source: Path, out: Path, roster_path: Path | None = None, course: Co
     students = roster.read(roster_path) if roster_path else None
     expected = [course.notebook(unit).name for unit in course.units if course.exercises(unit)]
     problems: list[str] = []
-    chosen, older = _choose(source, Register(students), expected, problems)
+    aside: list[str] = []
+    chosen, older = _choose(source, Register(students), expected, problems, aside)
     if not chosen and not problems:
         raise ValueError(f"{source} holds no notebook (.ipynb) and no zip")
     _write(out, chosen)
     missing = [one.id for one in students or () if one.id not in {student for student, _ in chosen}]
     for student in missing:  # a row in grades.csv, too
         (out / student).mkdir(parents=True)
-    return _summary(out, chosen, older, problems, missing)
+    return _summary(out, chosen, older, problems, aside, missing)
 
 
 Chosen = dict[tuple[str, str], tuple[tuple, Found, Told]]
 
 
 def _choose(
-    source: Path, register: Register, expected: list[str], problems: list[str]
+    source: Path, register: Register, expected: list[str], problems: list[str], aside: list[str]
 ) -> tuple[Chosen, list[str]]:
     """({(student, notebook): its latest attempt}, older attempts); what finds no place goes to `problems`."""
     chosen: Chosen = {}
     older: list[str] = []
-    for found in _files(source, problems):
+    for found in _files(source, problems, aside):
         said = told(found.parts)
         student, why = register.find((*said.who, *_owner(found.data)))
         notebook = notebook_of(said.file, expected)
@@ -126,15 +130,18 @@ def _write(out: Path, chosen: Chosen) -> None:
             with contextlib.suppress(OSError, OverflowError, ValueError):
                 os.utime(out / student / name, (time.timestamp(), time.timestamp()))
             late = "late" if said.late else ""
-            row = [student, name, time.isoformat(" ", "seconds"), late, said.canvas, said.moodle, found.place]
-            table.writerow(row)
+            row = [student, name, time.isoformat(" ", "seconds"), late, said.canvas, said.moodle]
+            table.writerow([*row, harmless(found.place)])
 
 
-def _summary(out: Path, chosen: Chosen, older: list[str], problems: list[str], missing: list[str]) -> str:
+def _summary(
+    out: Path, chosen: Chosen, older: list[str], problems: list[str], aside: list[str], missing: list[str]
+) -> str:
     students = {student for student, _ in chosen}
     lines = [f"{len(chosen)} notebooks of {len(students)} students: {out}"]
     for title, rows in (
         ("NOT COLLECTED, nobody has these", problems),
+        ("no notebook, left aside", aside),
         ("handed in nothing", missing),
         ("older, left out", older),
     ):
@@ -146,14 +153,26 @@ def _summary(out: Path, chosen: Chosen, older: list[str], problems: list[str], m
 # ---- files, in folders and in zips
 
 
-def _files(source: Path, problems: list[str]) -> Iterator[Found]:
-    """Every notebook; archives that cannot be read go to `problems`."""
+def _files(source: Path, problems: list[str], aside: list[str]) -> list[Found]:
+    """Every notebook; archives that cannot be read go to `problems`, who handed in neither to `aside`."""
     if source.is_file():
         if not zipfile.is_zipfile(source):
             raise ValueError(f"{source} is no zip: name the zip, or the folder it was unpacked to")
-        yield from _shortened(list(_in_zip((), source.read_bytes(), problems)))
+        everything = list(_in_zip((), source.read_bytes(), problems))
     else:
-        yield from _shortened(list(_in_folder(source, problems)))
+        everything = list(_in_folder(source, problems))
+    whole = [one for one in everything if _is_notebook(one.parts[-1])]
+    found = _shortened(whole)
+    folders = len(whole[0].parts) - len(found[0].parts) if whole else 0
+    homes = {one.parts[0] for one in found}
+    others: dict[str, list[str]] = {}
+    for one in everything:
+        if not _is_notebook(one.parts[-1]) and (parts := one.parts[folders:]) and parts[0] not in homes:
+            others.setdefault(parts[0], []).append(parts[-1])
+    aside += [
+        home if names == [home] else f"{home}: {', '.join(names[:5])}" for home, names in others.items()
+    ]
+    return found
 
 
 def _shortened(found: list[Found]) -> list[Found]:
@@ -168,10 +187,12 @@ def _shortened(found: list[Found]) -> list[Found]:
 def _in_folder(folder: Path, problems: list[str]) -> Iterator[Found]:
     for path in sorted(folder.rglob("*")):
         parts = path.relative_to(folder).parts
-        if _is_nobodys(parts) or not _is_wanted(parts[-1]):
+        if _is_nobodys(parts) or (path.is_dir() and not _is_wanted(parts[-1])):
             continue
         place = "/".join(parts)
-        if path.is_symlink() or not path.is_file():
+        if not _is_wanted(parts[-1]):
+            yield Found(parts, b"", datetime.min)
+        elif path.is_symlink() or not path.is_file():
             problems.append(f"{place}: a link or no file, not followed")
         elif path.stat().st_size > (LARGEST_ARCHIVE if parts[-1].lower().endswith(".zip") else LARGEST):
             problems.append(f"{place}: too large")
@@ -180,17 +201,22 @@ def _in_folder(folder: Path, problems: list[str]) -> Iterator[Found]:
             yield from _one(parts, path.read_bytes(), time, problems)
 
 
-def _one(parts: tuple[str, ...], data: bytes, time: datetime, problems: list[str]) -> Iterator[Found]:
+def _one(
+    parts: tuple[str, ...], data: bytes, time: datetime, problems: list[str], left: list[int] | None = None
+) -> Iterator[Found]:
     name = parts[-1].lower()
-    if name.endswith(".ipynb"):
+    if _is_notebook(name):
         yield Found(parts, zlib.compress(data, 1), time)
     elif name.endswith(".zip") and sum(part.lower().endswith(".zip") for part in parts) <= DEEPEST:
-        yield from _in_zip(parts, data, problems)
+        yield from _in_zip(parts, data, problems, left or [UNPACKED + 20 * len(data)])
     else:
         problems.append(f"{'/'.join(parts)}: no zip; unpack it into a folder of that name")
 
 
-def _in_zip(parts: tuple[str, ...], data: bytes, problems: list[str]) -> Iterator[Found]:
+def _in_zip(
+    parts: tuple[str, ...], data: bytes, problems: list[str], left: list[int] | None = None
+) -> Iterator[Found]:
+    """left: bytes that the zip, and all zips in it, may still hold; None where that is the whole class."""
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             infos = archive.infolist()
@@ -198,15 +224,22 @@ def _in_zip(parts: tuple[str, ...], data: bytes, problems: list[str]) -> Iterato
                 raise ValueError(f"holds {len(infos)} files")
             for info in infos:
                 inner = tuple(part for part in _name(info).split("/") if part not in ("", ".", ".."))
-                if info.is_dir() or not inner or _is_nobodys(inner) or not _is_wanted(inner[-1]):
+                if info.is_dir() or not inner or _is_nobodys(inner):
+                    continue
+                if not _is_wanted(inner[-1]):
+                    yield Found(parts + inner, b"", datetime.min)
                     continue
                 limit = LARGEST_ARCHIVE if inner[-1].lower().endswith(".zip") else LARGEST
                 with archive.open(info) as file:
-                    content = file.read(limit + 1)
+                    content = file.read((max(0, min(limit, left[0])) if left else limit) + 1)
+                if left:
+                    left[0] -= len(content) + 10_000
+                    if left[0] < 0:
+                        raise ValueError("too much in it: unpack it into a folder of that name")
                 if len(content) > limit:
                     problems.append(f"{'/'.join(parts + inner)}: too large")
                     continue
-                yield from _one(parts + inner, content, _time(info), problems)
+                yield from _one(parts + inner, content, _time(info), problems, left)
     except (zipfile.BadZipFile, ValueError, RuntimeError, NotImplementedError, OSError, EOFError) as error:
         problems.append(f"{'/'.join(parts) or 'the zip'}: cannot be read ({error})")
     except Exception as error:  # zlib.error and the like: a damaged zip
@@ -228,13 +261,18 @@ def _time(info: zipfile.ZipInfo) -> datetime:
         return datetime(1980, 1, 1)
 
 
+def _is_notebook(name: str) -> bool:
+    return bool(re.search(NOTEBOOK, name))
+
+
 def _is_wanted(name: str) -> bool:
-    return name.lower().endswith((".ipynb", *ARCHIVES)) and not name.startswith("._")
+    return _is_notebook(name) or name.lower().endswith(ARCHIVES)
 
 
 def _is_nobodys(parts: tuple[str, ...]) -> bool:
     """What JupyterLab and macOS leave beside people's work."""
-    return any(part in ("__MACOSX", ".ipynb_checkpoints", ".git", ".venv") for part in parts)
+    hidden = parts[-1].startswith("._") or parts[-1] in (".DS_Store", "Thumbs.db", "desktop.ini", TABLE)
+    return hidden or any(part in ("__MACOSX", ".ipynb_checkpoints", ".git", ".venv") for part in parts)
 
 
 def read_table(folder: Path) -> list[dict[str, str]]:

@@ -8,6 +8,7 @@ The solution of the exercise in question never enters. What is said in that box 
 from __future__ import annotations
 
 import ast
+from functools import cache
 
 from ..author import notebook
 from ..course import Course
@@ -58,11 +59,22 @@ def solutions(course: Course, unit: str, names: list[str], but: str) -> list[str
     sources, left = [], set(names)
     for cell in notebook.read(course.notebook(unit))["cells"]:
         solves = cell["metadata"].get("nbgrader", {}).get("grade_id") if notebook.is_solution(cell) else None
-        set_up = cell["cell_type"] == "code" and "setup" in notebook.tags(cell)
-        if left and solves != but and (solves or set_up):
+        if left and solves != but and (solves or _sets_up(cell)):
             sources.append(cell["source"])
             left.discard(solves)
     return sources
+
+
+@cache
+def set_up(course: Course, unit: str) -> str:
+    """The imports that a notebook begins with."""
+    return "\n".join(
+        cell["source"] for cell in notebook.read(course.notebook(unit))["cells"] if _sets_up(cell)
+    )
+
+
+def _sets_up(cell: dict) -> bool:
+    return cell["cell_type"] == "code" and "setup" in notebook.tags(cell)
 
 
 def uses(sources: list[str]) -> dict[str, set[str]]:

@@ -23,6 +23,7 @@ _CANVAS = re.compile(r"(?P<who>[^/]+?)_(?:(?P<late>LATE)_)?(?P<user>\d+)_(?P<att
 _MOODLE = re.compile(r"(?P<who>.+?)_(?P<user>\d+)_assignsubmission_(?:file|onlinetext)_?(?P<file>.*)")
 _EXCHANGE = re.compile(r"(?P<who>[^+]+)\+[^+]+\+(?P<time>\d{4}-\d\d-\d\d \d\d.\d\d.\d\d)[^+]*(\+.*)?")
 _COPY = re.compile(r"(?:-|_|\s*\(|-?\s*copy\s*)(?P<number>\d*)\)?$", re.I)
+NOTEBOOK = re.compile(r"\.ipynb(\.txt|\.json)?$", re.I)  # browsers name text as they like
 WRAPPERS = ("submitted", "submissions", "inbound", "collected", "notebooks", "work")  # nobody's names
 
 
@@ -72,7 +73,7 @@ def notebook_of(file: str, expected: list[str]) -> tuple[str, int] | None:
     >>> notebook_of("01_dh_vs_poe (2).ipynb", ["01_dh_vs_poe.ipynb"])
     ('01_dh_vs_poe.ipynb', 2)
     """
-    stem, number = re.sub(r"\.ipynb$", "", file, flags=re.I), 0
+    stem, number = NOTEBOOK.sub("", file), 0
     known = {_plain(name.removesuffix(".ipynb")): name for name in expected}
     for _ in range(4):  # "01_dh_vs_poe-Copy1 (2)-1"
         if _plain(stem) in known:
@@ -119,8 +120,9 @@ class Register:
 
 def safe(name: str) -> str:
     """A name for a folder, on every system."""
+    name = unicodedata.normalize("NFC", name)  # as macOS writes "ü" it is two letters
     name = "".join(c if c.isprintable() and c not in '/\\:*?"<>|' else "_" for c in name).strip(" .")
-    return name[:80] or "_"
+    return f"_{name[:80]}" if name[:1] in ("", "=", "+", "-", "@") else name[:80]  # no formula in a table
 
 
 def _plain(name: str) -> str:

@@ -94,7 +94,8 @@ def grade(job: dict, libraries: _Libraries) -> dict:
     arm, notes = handed_out(data, job["student"], course)
     before = time.process_time()
     library = libraries.of({**job["library"], **_drawn(exercises, arm)})
-    student = Student(sources, library, limits, bubblewrap() if job["box"] else None, len(exercises))
+    program, set_up = bubblewrap() if job["box"] else None, follow_on.set_up(course, job["unit"])
+    student = Student(sources, library, limits, program, len(exercises), set_up)
     try:
         for exercise in _order(exercises):
             row = result[exercise.name]
