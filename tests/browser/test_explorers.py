@@ -228,11 +228,14 @@ def test_notebook_runs_and_its_explorer_works(notebook, lab, name):
         )
         assert brightness(ink) - brightness(paper) > 100
         photograph(explorer, f"{name}_dark")
-    notebook.rest()
-
-    before = notebook.frames()
-    notebook.page.wait_for_timeout(1000)
-    assert notebook.frames() == before, "frames are drawn although nothing moves"
+    for _ in range(10):  # a late layout of JupyterLab, when it is busy, may ask for a frame once more
+        notebook.rest()
+        before = notebook.frames()
+        notebook.page.wait_for_timeout(1000)
+        if notebook.frames() == before:
+            break
+    else:
+        pytest.fail("frames are drawn although nothing moves")
     assert notebook.page.evaluate("() => window.webgl.size") == 1
     assert notebook.errors == []
 
