@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import io
 import sys
 
 from . import __version__
@@ -21,6 +22,9 @@ exit codes: 0 done; 1 stopped by an error of ours; 2 not done: the sentence says
 
 def main(argv: list[str] | None = None) -> int:
     """Run one command; 0 if it did what it should."""
+    for stream in (sys.stdout, sys.stderr):  # names of files may hold letters that a terminal has not
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
     parser = _parser()
     options, rest = parser.parse_known_args(argv)
     command = COMMANDS[options.command]

@@ -80,7 +80,8 @@ def key(cell: dict) -> str:
 
 def mark_of(notebook: dict) -> dict:
     """What a release noted in a notebook; {} if nothing, or nothing of that kind."""
-    mark = notebook.get("metadata", {}).get("coursekit", {})
+    metadata = notebook.get("metadata")
+    mark = metadata.get("coursekit") if isinstance(metadata, dict) else None
     return mark if isinstance(mark, dict) else {}
 
 

@@ -301,6 +301,11 @@ def marks_that_lie(notebook):
     return {**notebook, "metadata": {"coursekit": mark}}
 
 
+@kind(FULL)
+def metadata_of_another_kind(notebook):
+    return {**notebook, "metadata": []}
+
+
 @kind(NO_FK, "the line `fk = fk(")
 def a_value_with_the_name_of_the_function(notebook):
     return with_cell(notebook, "fk = fk(np.array([0.1, 0.2]), 1, 1)")

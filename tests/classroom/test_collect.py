@@ -193,6 +193,8 @@ def test_what_is_no_notebook_is_listed_unless_a_notebook_lies_beside_it(tmp_path
         f"Mu\u0308ller/{DH}": notebook("1"),
         f"M\u00fcller/{MSB}.json": notebook("2"),
         f"=1+1/{DH}": notebook("3"),
+        "eve/\x1b[2J.pdf": b"wipes a terminal",
+        "M\udcfcller.txt": b"a name in other letters",
     }
     said = collect.collect(tree(tmp_path / "in", files), tmp_path / "out")
     assert collected(tmp_path / "out") == {
@@ -201,7 +203,8 @@ def test_what_is_no_notebook_is_listed_unless_a_notebook_lies_beside_it(tmp_path
         f"M\u00fcller/{MSB}": notebook("2"),
         f"_=1+1/{DH}": notebook("3"),
     }
-    assert said.endswith("no notebook, left aside (1):\n    bob: essay.pdf, photo.jpg")
+    listed = ["    M?ller.txt", "    bob: essay.pdf, photo.jpg", "    eve: ?[2J.pdf"]
+    assert said.endswith("\n".join(["no notebook, left aside (3):", *listed]))
     assert f"'=1+1/{DH}" in (tmp_path / "out" / collect.TABLE).read_text("utf-8-sig")
 
 

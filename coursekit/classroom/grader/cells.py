@@ -8,7 +8,7 @@ import re
 
 LARGEST = 20_000_000  # bytes of a notebook
 LONGEST = 200_000  # characters of a cell: more takes Python's own reader minutes
-EFFORT = 4_000_000  # characters read of all cells; IPython reads a cell anew for each magic in it
+EFFORT = 2_000_000  # characters read of all cells; IPython reads a cell anew for each magic in it
 _MAGIC = re.compile(r"^[ \t]*[%!?/,;]|\?[ \t]*$|=[ \t]*[%!]", re.MULTILINE)
 _RUNS_ITS_BODY = ("time", "timeit", "capture", "prun")  # of the magics that stand above a whole cell
 

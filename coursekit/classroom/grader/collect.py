@@ -146,8 +146,13 @@ def _summary(
         ("older, left out", older),
     ):
         if rows:
-            lines += [f"{title} ({len(rows)}):", *(f"    {row}" for row in sorted(rows))]
+            lines += [f"{title} ({len(rows)}):", *(f"    {_plain(row)}" for row in sorted(rows))]
     return "\n".join(lines)
+
+
+def _plain(text: str) -> str:
+    """A name of a file may otherwise tell a terminal to wipe what is on it."""
+    return "".join(c if c.isprintable() else "?" for c in text)
 
 
 # ---- files, in folders and in zips
