@@ -131,3 +131,10 @@ def test_the_clinic_says_which_line_as_check_does_and_searches_once(tmp_path):
     assert cost > 0
     assert one.lines(course, [*setup, "# a comment", code.replace(", ", ",  ")], ["dh_transform"]) == found
     assert one.cpu == cost, "the same function again costs nothing"
+    forged = """
+import coursekit.classroom as classroom
+forged = setattr(classroom, "diagnose", lambda *a: type("", (), {"say": "look at line 1: I was here"}))
+"""
+    other = code.replace("sin(alpha)", "cos(alpha)", 1)
+    one.lines(course, [*setup, forged, "a = 1; \\\nprint(a)", other], ["dh_transform"])
+    assert "here" not in str(one.lines(course, [*setup, other], ["dh_transform"])), "somebody else's page"

@@ -109,14 +109,15 @@ def why_missing(code: list[str], others: list[str], name: str) -> str:
     return "the notebook defines no such function"
 
 
-def definitions(source: str, after: int) -> str:
+def definitions(source: str, after: int, names: set[str] | None = None) -> str:
     """Functions, classes, imports and assignments of a cell below a line, every one still on its own line.
+
+    names : only those that define one of these.
 
     '' if the cell is not plain Python (a magic, a syntax error): then it runs whole or not at all.
     """
-    try:
-        statements = ast.parse(source).body
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+    statements = parsed(source).body
+    if not statements:
         return ""
     lines = source.split("\n")
     kept = ["#"] * len(lines)  # so that a line that is left out still counts
@@ -124,6 +125,48 @@ def definitions(source: str, after: int) -> str:
     for node in statements:
         decorators = getattr(node, "decorator_list", [])
         first = min([node.lineno, *(d.lineno for d in decorators)])
-        if first > after and isinstance(node, (*wanted, ast.AnnAssign)):
+        asked = names is None or names & defined(node)
+        if first > after and asked and isinstance(node, (*wanted, ast.AnnAssign)):
             kept[first - 1 : node.end_lineno] = lines[first - 1 : node.end_lineno]
     return "\n".join(kept)
+
+
+def parsed(source: str) -> ast.Module:
+    """Its tree; that of nothing, if it is not plain Python."""
+    try:
+        return ast.parse(source)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return ast.Module([], [])
+
+
+def defined(node: ast.stmt) -> set[str]:
+    """The names that a statement at the top of a cell gives a value."""
+    if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+        return {node.name}
+    if isinstance(node, ast.Import | ast.ImportFrom):
+        return {alias.asname or alias.name.partition(".")[0] for alias in node.names}
+    names = (inner for inner in ast.walk(node) if isinstance(inner, ast.Name))
+    return {name.id for name in names if isinstance(name.ctx, ast.Store)}
+
+
+def needed(sources: list[str], name: str) -> list[str]:
+    """Of every cell what defines a function, and what that uses in turn; nothing else of them is in it."""
+    found = []
+    for source in sources:
+        for node in parsed(source).body:
+            found.append((defined(node), _used(node)))
+    names, before = {name, "*"}, set[str]()
+    while names != before:
+        before = set(names)
+        for makes, used in found:
+            names |= used if makes & names else set()
+    return [definitions(source, 0, names) for source in sources]
+
+
+def _used(node: ast.stmt) -> set[str]:
+    """The names that a statement takes from elsewhere: not what is a function's own."""
+    names = [inner for inner in ast.walk(node) if isinstance(inner, ast.Name)]
+    own = {inner.arg for inner in ast.walk(node) if isinstance(inner, ast.arg)}
+    if isinstance(node, ast.FunctionDef):
+        own |= {name.id for name in names if isinstance(name.ctx, ast.Store)}
+    return {name.id for name in names if isinstance(name.ctx, ast.Load)} - own

@@ -7,6 +7,7 @@ there, so that what comes out is advice, never points. A function is searched on
 from __future__ import annotations
 
 import ast
+import contextlib
 import hashlib
 import json
 import re
@@ -15,7 +16,7 @@ from pathlib import Path
 
 from ..author import release
 from ..course import Course
-from . import cells, follow_on
+from . import cells
 from .box import Box, BoxLost, Limits
 from .locked import INSIDE
 from .reply import clean
@@ -34,40 +35,31 @@ class Clinic:
 
     def lines(self, course: Course, sources: list[str], names: list[str]) -> dict[str, str]:
         """{exercise: "look at line 4: a sign"}, of those for which a line is found."""
-        keys = {name: self._key(course, sources, name) for name in names}
-        if unknown := [name for name, key in keys.items() if key not in self._found]:
-            self._search(course, sources, {name: keys[name] for name in unknown})
-        return {name: text for name, key in keys.items() if (text := self._found[key])}
+        found = {name: self._line(course, cells.needed(sources, name), name) for name in names}
+        return {name: text for name, text in found.items() if text}
 
-    def _key(self, course: Course, sources: list[str], name: str) -> str:
-        """What tells a function and all that it calls from another: spaces and comments do not."""
-        text = hashlib.sha256(json.dumps([course.place, name]).encode())
-        reached = {name, *follow_on.reached(name, follow_on.uses(sources))}
-        for source in sources:
-            for node in ast.walk(_parsed(source)):
-                if isinstance(node, ast.FunctionDef) and node.name in reached:
-                    text.update(ast.dump(node).encode())
-        return text.hexdigest()
+    def _line(self, course: Course, sources: list[str], name: str) -> str:
+        """What is run decides what is kept: nobody writes on the page of whoever has the same function."""
+        trees = [ast.dump(cells.parsed(source)) for source in sources]  # without spaces and comments
+        told = json.dumps([course.place, name, *(tree for tree in trees if tree != _NOTHING)])
+        key = hashlib.sha256(told.encode()).hexdigest()
+        if key not in self._found:
+            self._found[key] = ""
+            with contextlib.suppress(OSError, BoxLost):  # no advice then
+                self._found[key] = self._search(course, sources, name)
+        return self._found[key]
 
-    def _search(self, course: Course, sources: list[str], keys: dict[str, str]) -> None:
-        self._found |= dict.fromkeys(keys.values(), "")
-        try:
-            box = Box(self._library(course), self._limits, self._program, released=True)
-        except OSError:
-            return
+    def _search(self, course: Course, sources: list[str], name: str) -> str:
+        box = Box(self._library(course), self._limits, self._program, released=True)
         try:
             for number, source in enumerate(sources):
-                defined = cells.definitions(source, 0)
-                box.ask({"run": defined, "name": f"<cell {number + 1}>"}, 5.0)
-            for name, key in keys.items():
-                said = box.ask({"diagnose": name}, SECONDS).get("said")
-                if isinstance(said, str) and re.search(r"\bline \d+", said):
-                    self._found[key] = clean(said)
-        except BoxLost:
-            pass  # no advice then
+                if source.strip("#\n"):
+                    box.ask({"run": source, "name": f"<cell {number + 1}>"}, 5.0)
+            said = box.ask({"diagnose": name}, SECONDS).get("said")
         finally:
             box.close()
             self.cpu += box.cpu
+        return clean(said) if isinstance(said, str) and re.search(r"\bline \d+", said) else ""
 
     def _library(self, course: Course) -> Path:
         """The students' release, with the runner beside the package."""
@@ -79,8 +71,4 @@ class Clinic:
         return folder
 
 
-def _parsed(source: str) -> ast.AST:
-    try:
-        return ast.parse(source)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return ast.Module([], [])
+_NOTHING = ast.dump(cells.parsed(""))
