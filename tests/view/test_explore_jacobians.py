@@ -96,6 +96,25 @@ def test_the_ellipsoids_go_along_while_a_run_is_played(panel):
     np.testing.assert_array_equal(panel.scene.pose(), before)
 
 
+def test_a_students_loop_is_shown_as_far_as_the_target():
+    panda = robots.franka_panda()
+    counted = []
+
+    def dls_loop(robot, T_sd, theta, k, steps):
+        """Goes on at the target, as the exercise asks: every run has all of its steps."""
+        counted.append(steps)
+        return ik.trail(robot, T_sd, theta, lambda J, e: ik.dls_step(J, e, k), steps)
+
+    panel = view.explore_jacobians(mine=dls_loop)
+    steps = ik.damped_least_squares(
+        panda, panda.fk(panda.home), panel.values["theta"], damping=panel.values["damping"], tol=1e-8
+    ).iterations
+    assert f"the first step is right, below 1e-9; {steps} steps to the target" in panel.line.value
+    panel._controls["mine"].act()
+    assert panel.viewer.motion["frames"] == steps + 1 < counted[-1] + 1
+    panel.close()
+
+
 def test_a_named_pose_is_reached_beyond_the_limits_too():
     model, theta = robots.kuka_kr10_report(), [0, -np.pi / 6, -2.2829525304720546, 0, np.pi / 6, 0]
     assert not model.within_limits(theta)

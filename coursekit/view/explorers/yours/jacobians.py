@@ -8,7 +8,7 @@ from coursekit.view.controls import Action
 from coursekit.view.explorers import Explorer
 from coursekit.view.sketch import COLOR, ZERO, Trouble, apart, size
 
-from .steps import STEPS, ahead, iterate, run
+from .steps import STEPS, THERE, ahead, iterate, run
 
 LOAD = 100.0  # N
 TWIST = 10.0  # N m, about y
@@ -130,11 +130,11 @@ class Jacobians(Explorer):
             return self.mine.ask("dls_step", *self._task(theta), values["damping"])
 
         self.run = None
-        steps = iterate(self.robot, self.start, self.target, step, 1e-8, self.rows)
+        steps = iterate(self.robot, self.start, self.target, step, THERE, self.rows)
         return self._damped(sketch, values, *steps)
 
     def _dls_loop(self, sketch, values):
-        """The student's whole run, as far as it stays finite, and what is left at its end."""
+        """The student's run, until it stays at the target or runs away, and what is left at its end."""
         self.run, wanted = None, (STEPS + 1, self.robot.n)
         thetas = self.mine.ask("dls_loop", self.robot, self.target, self.start, values["damping"], STEPS)
         if thetas.shape != wanted:
@@ -144,8 +144,10 @@ class Jacobians(Explorer):
         far = np.flatnonzero(np.abs(thetas).max(axis=1) > 1e4)
         if far.size:
             return self._damped(sketch, values, thetas[: far[0]], None)
-        distance, angle = apart(self.robot.fk(thetas[-1]), self.target)
-        return self._damped(sketch, values, thetas, (float(angle), float(distance)))
+        distance, angle = apart(self.robot.fk(thetas), self.target)
+        missing = np.flatnonzero(np.fmax(distance, angle) >= THERE)
+        end = min(STEPS, missing[-1] + 1 if missing.size else 0)
+        return self._damped(sketch, values, thetas[: end + 1], (float(angle[end]), float(distance[end])))
 
     def _task(self, theta):
         """J_b and the twist to the target, in the rows that count."""

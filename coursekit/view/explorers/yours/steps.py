@@ -11,6 +11,7 @@ from coursekit.view import text
 from coursekit.view.sketch import ZERO, Trouble, apart, gap, size
 
 STEPS = 50
+THERE = 1e-8  # metres and radians: a run has come to its target
 
 
 def wrist(T: np.ndarray, tool: float) -> np.ndarray:
@@ -62,6 +63,6 @@ def run(thetas: np.ndarray, left: tuple[float, float] | None, first: np.ndarray)
     if left is None:
         return f"{told}; step {count + 1} runs away"
     longest = np.linalg.norm(np.diff(thetas, axis=0), axis=-1).max(initial=0.0)
-    if max(left) < 1e-8:
+    if max(left) < THERE:
         return f"{told}; {count} steps to the target, the longest {text.number(longest, 2)} rad"
     return f"{told}; after {count} steps still {gap(left[1], left[0])} away"
