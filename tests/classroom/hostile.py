@@ -681,7 +681,7 @@ for descriptor in range(3, 20):
     except OSError:
         pass
 """,
-    "of memory",
+    "no answer",  # its memory or, on a slow machine, its time is over
 )
 fk_kind(
     "floods_the_memory_by_sockets",
@@ -700,16 +700,17 @@ open(0) if len(pairs) < 480 else time.sleep(60)
 """,
     "no answer",
 )
-fk_kind(
-    "a_namespace_of_its_own",  # in which a file system has no size
-    FULL if not bubblewrap() or no_boxes_inside(bubblewrap()) else NO_FK,
-    """
+if (program := bubblewrap()) and no_boxes_inside(program):  # older ones cannot forbid it
+    fk_kind(
+        "a_namespace_of_its_own",  # in which a file system has no size
+        FULL,
+        """
 import ctypes, os
 if (child := os.fork()) == 0:
     os._exit(ctypes.CDLL(None).unshare(0x10000000) == 0)
 return right(theta, l1, l2) if os.waitpid(child, 0)[1] == 0 else np.zeros(2)
 """,
-)
+    )
 fk_kind(
     "writes_to_the_kernel_of_the_host",
     FULL,  # if nothing of it can be written

@@ -239,6 +239,26 @@ def others():
 
 @pytest.mark.box
 @needs_box
+def test_the_memory_of_a_box_is_watched_also_while_it_talks(tmp_path, monkeypatch):
+    locked.write_files(locked.locked_files(()), tmp_path)
+    talk = """
+import fcntl, os
+pipes = [int(n) for n in os.listdir("/proc/self/fd") if os.path.exists(f"/proc/self/fd/{n}")]
+(pipe, *_) = [n for n in pipes if n > 2 and fcntl.fcntl(n, fcntl.F_GETFL) & os.O_WRONLY]
+while True:
+    os.write(pipe, b"{}\\n" * 1000)
+"""
+    monkeypatch.setattr(box, "used", lambda root: 1 << 40)
+    one = box.Box(tmp_path, box.Limits(), bubblewrap())
+    try:
+        with pytest.raises(box.BoxLost, match="MB of memory"):
+            one.ask({"run": talk, "name": "<cell>"}, 3)
+    finally:
+        one.close()
+
+
+@pytest.mark.box
+@needs_box
 def test_the_whole_course_can_be_graded(tmp_path):
     """Its canaries: in the box every solved notebook gets full marks, every untouched one none."""
     (tmp_path / "in").mkdir()

@@ -137,6 +137,8 @@ def test_follow_on_credit_counts_as_configured():
     assert standing(rows, follow_on=0.5).points == 10.5
     assert standing(rows, follow_on=0).points == 9
     assert "right with a right fk, which it calls" in standing(rows).marks["ik"].note
+    rows["exercises"]["ik"] |= {"text": "not written yet", "kind": "unwritten"}
+    assert standing(rows).marks["ik"].text == "it calls fk, and something there is not written yet"
     with pytest.raises(ValueError, match="--late is a share of the points, from 0 to 1; 10 came"):
         decisions.Decisions(late=10)
 

@@ -119,6 +119,8 @@ def _mark(student: str, exercise, row: dict | None, course: Course, decisions: D
         if not points and row.get("follow_on") and decisions.follow_on:
             points = whole(of * decisions.follow_on)
             note = f"right with a right {row['follow_on']}, which it calls: the points are given"
+            if more["kind"] == "unwritten":  # not this exercise, whose own code is right
+                text = f"it calls {row['follow_on']}, and something there is not written yet"
             note += "" if decisions.follow_on == 1 else f" in part ({100 * decisions.follow_on:.3g} %)"
     if override := decisions.overrides.get((student, exercise.name)):
         points = whole(override.points)
