@@ -158,6 +158,14 @@ class Slider(Control):
             self._beyond = False
         self._exact = (self.value, float(value))
 
+    def start_at(self, value: float) -> None:
+        """Show this value, and come back to it after `reset`."""
+        self.initial = float(value)
+        self.reset()
+
+    def reset(self) -> None:
+        self.show(self.initial)
+
     def _shown(self, si):
         return float(np.round(si * self.shown_per_si, 10)) + 0.0  # 170.00000000000003 degrees is 170
 
@@ -228,6 +236,11 @@ class JointSliders(Sliders):
         """Put theta (n,), also where a motion leads beyond the limits."""
         for slider, value in zip(self.used, np.asarray(theta, float), strict=True):
             slider.show(value)
+
+    def start_at(self, theta: ArrayLike) -> None:
+        """Show theta (n,), and come back to it after `reset`."""
+        for slider, value in zip(self.used, np.asarray(theta, float), strict=True):
+            slider.start_at(value)
 
     def fit(self, robot: Robot) -> None:
         """Serve another robot, from its home pose. At most as many joints as sliders were made."""

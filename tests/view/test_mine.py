@@ -341,9 +341,12 @@ def test_the_stored_line_holds_the_verdict_and_still_gives_a_page(opened):
     assert reopened.page_of(line).startswith("<!DOCTYPE html>")
 
 
-def test_the_arm_begins_where_it_is_told_also_beyond_its_limits(opened):
+def test_the_arm_begins_where_it_is_told_and_comes_back_there_also_beyond_its_limits(opened):
     beyond = [3.5, -1, 1, 0, 0, 0]
     panel = opened("explore", {"fk_poe": right("fk_poe")}, theta=beyond)
+    np.testing.assert_array_equal(panel.values["theta"], beyond)
+    panel.set(theta=np.zeros(6))
+    panel.reset()
     np.testing.assert_array_equal(panel.values["theta"], beyond)
     with pytest.raises(ValueError, match=r"has 6 joints: theta must be \(6,\), got \(2,\)"):
         view.explore(KR6, theta=[0, 1])

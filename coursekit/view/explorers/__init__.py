@@ -67,11 +67,11 @@ class Explorer:
         return self.joints.used if self.joints else []
 
     def start_at(self, theta: np.ndarray) -> None:
-        """Begin with the arm at theta (n,), which may lie outside its limits. ValueError for other shapes."""
+        """Begin, after `reset` too, at theta (n,), also outside the limits. ValueError for other shapes."""
         n = self.robot.n
         if theta.shape != (n,) or self.joints is None:
             raise ValueError(f"{self.robot.name} has {n} joints: theta must be ({n},), got {theta.shape}")
-        self.joints.show(theta)
+        self.joints.start_at(theta)
 
     def words(self, values: dict[str, Any]) -> Iterable[str]:
         """Lines: the numbers of the picture, for everyone."""
