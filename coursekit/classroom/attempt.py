@@ -38,6 +38,7 @@ COST = 3_000_000  # of lines and calls together, where a loop of the student's h
 MANY = 2_000
 SECONDS = 20.0  # a backstop, for lines that take very long
 CALL = 8  # a call of a library costs as much as so many lines
+NUMPY = 5  # one within numpy, whose functions call each other and do little
 SHOWN = 4  # variables told beside an error
 LIBRARIES = tuple(str(Path(p).resolve()) for p in (sys.prefix, sys.base_prefix, str(PACKAGE), np.__path__[0]))
 
@@ -155,8 +156,8 @@ class _Watch:
     def _call(self, frame: FrameType, event: str, _: Any):
         if name := library_call(frame):
             self.calls.append(name)
-        if _is_library(frame.f_code.co_filename):
-            self.cost += CALL
+        if _is_library(file := frame.f_code.co_filename):
+            self.cost += NUMPY if "numpy" in file else CALL
             return None
         return self._line
 
@@ -218,9 +219,19 @@ def _explain(exercise: Exercise, function: Callable, error: Exception, arguments
     text = f"line {line} of {frame.f_code.co_name} raises {text}{_source_line(frame.f_code, at)}"
     if told := _variables(frame, at):
         text += f"\n  there {told}"
-    if plain:
+    if plain := _a_row_for_a_column(exercise, frame, arguments) or plain:
         text += f"\n  {plain}"
     return Attempt(fault="error", text=text)
+
+
+def _a_row_for_a_column(exercise: Exercise, frame: FrameType, arguments: list) -> str:
+    """ "`s` is a row of S, ...": of what holds six numbers in each column, a loop takes the rows."""
+    for name, S in zip(exercise.arguments, thaw(arguments), strict=False):
+        if name in ("S", "J", "J_b") and np.ndim(S) == 2:
+            for own, value in frame.f_locals.items():
+                if np.ndim(value) == 1 and any(np.array_equal(value, row) for row in S):
+                    return f"`{own}` is a row of {name}; its columns come one by one from {name}.T"
+    return ""
 
 
 def _place(error: Exception) -> tuple[FrameType | None, int]:

@@ -23,6 +23,11 @@ def remembers(exercise: Exercise, function: Callable, examples: list, attempts: 
         return ""
     if _alike(call(exercise, function, examples[first].arguments), attempts[first]):
         return ""
+    if "empty" in getattr(getattr(function, "__code__", None), "co_names", ()):
+        return (
+            "called twice with the same arguments, it gives two answers: np.empty holds what happened to be"
+            " in memory, and not all of it is filled (does `return` stand inside the loop?)"
+        )
     return (
         "called twice with the same arguments, it gives two answers: it draws random numbers, or something"
         " outlives the call, such as a list or an array made outside the function, or in its `def` line"

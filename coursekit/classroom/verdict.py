@@ -14,7 +14,7 @@ The grader judges answers to hidden inputs and has no function: it tells nothing
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -104,7 +104,9 @@ def verdict(
         return Verdict("named", text, step="word", example=good.index(False))
     if found:
         hint = None if found.step == "changed" else _named(exercise, examples, answers)
-        return Verdict("named", hint.text, step=hint.key, example=found.example) if hint else found
+        if hint:
+            return Verdict("named", hint.text, step=hint.key, example=found.example)
+        return _placed(found, exercise, function, examples, good, attempts)
     if all(good) and _rounded(exercise, examples, answers):
         return Verdict("named", "your numbers are rounded: give them as they are", step="rounded", example=0)
     if all(good):
@@ -126,14 +128,16 @@ def verdict(
     if hint:
         return Verdict("named", hint.text, step=hint.key, example=first)
     if text := _other_length(exercise, examples, answers):
-        return Verdict("misfit", text, step="length", example=first)
+        found = Verdict("misfit", text, step="misfit", example=first)
+        return _placed(found, exercise, function, examples, good, attempts)
     if any(good) and (found := _not_finite(exercise, examples, answers, function, good)):
         return found
     also = _already_and_residual(exercise, examples, answers, good, function)
     if function and (text := ignored(exercise, function)):
         return Verdict("named", text, also, "ignored", first)
     if text := done_to_the_right_answer(exercise, examples, answers):
-        return Verdict("named", text, step="done", example=first)
+        found = Verdict("named", text, step="done", example=first)
+        return _placed(found, exercise, function, examples, good, attempts)
     if function and (text := _repaired(exercise, function, examples, good, attempts)):
         return Verdict("named", text, also, "repair", first, text.removeprefix("look at "))
     if found := _not_finite(exercise, examples, answers, function):
@@ -282,9 +286,21 @@ def _rows(exercise: Exercise, parts: Parts) -> Parts:
 # ---- 5: where the code is wrong
 
 
+def _placed(found: Verdict, exercise: Exercise, function, examples, good, attempts) -> Verdict:
+    """What is wrong with the answer, and the line of the code that made it so, where it can be found."""
+    if function is None or found.step not in ("misfit", "done") or ". " in found.say:
+        return found
+    place = _repaired(exercise, function, examples, good, attempts)
+    if not place:
+        return found
+    return replace(found, say=f"{found.say}; {place}", mended=place.removeprefix("look at "))
+
+
 def _repaired(exercise: Exercise, function, examples, good, attempts) -> str:
     wrong_first = sorted(range(len(examples)), key=lambda k: (good[k], attempts[k].cost))
-    return repair(exercise, function, [examples[k] for k in wrong_first], attempts[wrong_first[0]].cost)
+    costs = sorted(tried.cost for tried in attempts)
+    cost = max(attempts[wrong_first[0]].cost, costs[len(costs) // 2] // 4)  # the first may return at once
+    return repair(exercise, function, [examples[k] for k in wrong_first], cost)
 
 
 # ---- 6 and 7: what is right already, and by how much the rest misses

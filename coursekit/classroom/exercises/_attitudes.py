@@ -51,6 +51,14 @@ def nearly_about(axis):
     return draw
 
 
+def adding_up_to_nothing(rng):
+    """w + x + y + z = 0: the lines of the table, added up, are a quaternion only elsewhere."""
+    q = rng.normal(size=4)
+    w, *v = q - q.mean()
+    length = np.linalg.norm(v)
+    return turn(np.array(v) / length, 2 * np.arctan2(length, w))
+
+
 def half_turn(rng):
     k = direction(rng)
     return (2 * np.outer(k, k) - np.eye(3),)

@@ -27,8 +27,9 @@ def nearly_singular(rng, size=1, lost=None, small=None, columns=6):
 
 
 def limit_met(rng):
-    """Nothing is larger than 1 times the largest."""
-    return nearly_singular(rng)[0], 1.0
+    """Nothing is larger than 1 times the largest, which no rounding hides: each column has one entry."""
+    sigma = rng.choice([-1, 1], 6) * [4, 2, 1, 1, 0.5, 0.25]
+    return rng.permutation(np.diag(sigma)), 1.0
 
 
 def coarse(rng):
@@ -41,7 +42,10 @@ def fine(rng):
 
 
 def nilpotent(rng):
-    return np.diag(rng.uniform(0.5, 2, 5), 1), 1e-6
+    """Nor does the diagonal of a QR of it, or of its transpose, tell its rank."""
+    above, below = (np.diag([a, b], side) for side, (a, b) in ((1, rng.uniform(0.5, 2, 2)), (-1, (1.2, 0.7))))
+    nothing = np.zeros((3, 3))
+    return np.block([[above, nothing], [nothing, below]]), 1e-6
 
 
 def whole(rng):

@@ -52,6 +52,14 @@ def _near_in_one_joint(rng):
     return last, rng.permutation([*others, -last, last + step])
 
 
+def _half_a_turn_away(rng):
+    """Of the wrong solutions some joints are half a turn away, the others nearly where they were."""
+    last = rng.uniform(-1.5, 1.5, 4)
+    away = np.array([[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 0], [1, 1, 1, 1]]) * np.pi
+    others = last + away + rng.uniform(0.01, 0.03, (4, 4))
+    return last, rng.permutation([*_wrapped(others), last + rng.uniform(0.05, 0.12, 4)])
+
+
 def _whole(rng):
     """Whole numbers; 3 goes on to 2 pi - 3."""
     return [3, 0, -2], rng.permutation([[-3, 0, -2], [3, 2, 0], [1, 0, -2]])
@@ -100,7 +108,8 @@ NEXT_ON_BRANCH = Exercise(
         Edge("for one joint", _drawn(n=1, k=3, turns=2)),
         Edge("for as many solutions as joints", _drawn(5, 5)),
         Edge("where the differences of a wrong solution cancel", _balanced),
-        Edge("where wrong solutions are near in one joint", _near_in_one_joint, 2),
+        Edge("where wrong solutions are near in one joint", _near_in_one_joint, 3),
+        Edge("where wrong solutions are half a turn away", _half_a_turn_away, 2),
         Edge("for whole numbers", _whole),
     ),
     residual=_missed,

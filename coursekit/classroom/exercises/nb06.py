@@ -105,6 +105,7 @@ EXERCISES = [
             Edge("for no turn at all", lambda rng: (np.eye(3, dtype=int),)),
             Edge("for a quarter turn", attitudes.quarter_turn),
             Edge("where w, x, y and z are equal", attitudes.right_angles),
+            Edge("where w, x, y and z add up to 0", attitudes.adding_up_to_nothing),
             Edge("for a small turn", attitudes.small_turn),
             Edge("where x is the largest", attitudes.large(0)),
             Edge("where y is the largest", attitudes.large(1)),
@@ -277,6 +278,10 @@ EXERCISES = [
                 "the joint that turns most need not be the worst: its bound may be large. Divide first, then"
                 " look for the smallest",
             ),
+            Hint(
+                "wrapped_differences",
+                "differences wrapped to half a turn: a joint that turns farther in one step counts in full",
+            ),
             Hint("joints_added", "the joints have no common speed: each joint is held against its own bound"),
             Hint(
                 "whole_length", "each step has its own length: `norm` without axis=1 makes one number of all"
@@ -376,7 +381,10 @@ EXERCISES = [
             ),
             Hint("wrong_side", "the turn R_0^T R_1 is seen from the tool: it stands behind R_0"),
             Hint("from_identity", "your way begins at the identity, not at R_0"),
-            Hint("away", "R_1^T R_0 leads from R_1 to R_0: the turn that is left is R_0^T R_1"),
+            Hint(
+                "away",
+                "it turns the other way: the turn that is left is R_0^T R_1, not its inverse R_1^T R_0",
+            ),
             Hint("backwards", "at t = 0 it has to be R_0, at t = 1 R_1"),
             Hint("vectors", "products k theta do not add: take the product of the turn between, R_0^T R_1"),
             Hint("long_way", "that is the long way round: q and -q are one attitude, take the nearer"),

@@ -49,6 +49,12 @@ def turn_with_the_part_along(k, x, y):
     return np.arctan2(k @ np.cross(x, y), x @ y)
 
 
+def turn_with_whole_lengths(k, x, y):
+    part = (x - k * (k @ x)) @ (y - k * (k @ y))
+    angle = np.arccos(np.clip(part / np.linalg.norm(x) / np.linalg.norm(y), -1, 1))
+    return np.copysign(angle, np.sin(right.subproblem1(k, x, y)))
+
+
 def turn_backwards(k, x, y):
     return -right.subproblem1(k, x, y)
 
@@ -310,6 +316,7 @@ WRONG = {
     "subproblem1": {
         "swapped": turn_swapped,
         "not_removed": turn_with_the_part_along,
+        "whole_lengths": turn_with_whole_lengths,
         "sign": turn_backwards,
         "arccos": turn_by_arccos,
         "arctan": turn_by_arctan,

@@ -263,6 +263,11 @@ def speed_wrapped(q, points, v_max):  # RPI mini project 3, problem 3
     return right.largest_speed(np.angle(np.exp(1j * q)), points, v_max)
 
 
+def speed_wrapped_differences(q, points, v_max):
+    turns = np.angle(np.exp(1j * np.diff(q, axis=0)))
+    return right.largest_speed(np.cumsum([q[0], *turns], axis=0), points, v_max)
+
+
 def speed_one_bound(q, points, v_max):
     return right.largest_speed(q, points, np.full(len(v_max), v_max.min()))
 
@@ -359,6 +364,7 @@ WRONG = {
     },
     "largest_speed": {
         "wrapped": speed_wrapped,
+        "wrapped_differences": speed_wrapped_differences,
         "one_bound": speed_one_bound,
         "bound_of_the_fastest": speed_with_bound_of_the_fastest,
         "joints_added": speed_of_all_joints_together,

@@ -2,14 +2,16 @@
 
 The function is tried with single edits, one after the other, the likely ones first, until a fixed number of
 executed lines is used up: the same code gets the same sentence on every machine. What is told is the line and
-the kind of the edit. The edit itself is never shown. Nor is anything told
-if lines that are far apart would both do.
+the kind of the edit. The edit itself is never shown. Where one of two lines would do, both are told; nothing
+is told of more of them.
 """
 
 from __future__ import annotations
 
 import ast
+import contextlib
 import itertools
+import time
 import warnings
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -22,10 +24,12 @@ from ..exercise import Exercise, Misfit, answer, misshapen, thaw
 from . import places
 from .lines import line_edits, name_edits
 from .places import LOCALS, PROBE, Place, Variant
-from .sandbox import Sandbox, Stop, Unfit
+from .sandbox import TICKS, Sandbox, Stop, Unfit
 from .texts import sentence
 
 BUDGET = 600_000  # executed lines, of the student's and of what they call
+ONE = 10_000  # of them in a single trial, whose loop may not end any more
+SECONDS = 10.0  # a backstop, where an edit makes a function work that did nothing before
 
 
 @dataclass(frozen=True)
@@ -44,21 +48,21 @@ def repair(exercise: Exercise, function: Callable, examples: list, cost: int) ->
     examples : of `verdict.Example`, those where the function is wrong first
     cost : lines that one call of the function executes
     """
-    try:
-        search = _Search(exercise, function, examples, max(1, BUDGET // max(cost, 12)))
-    except Unfit:
-        return ""
     with np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # what an edit is warned of is not the student's matter
+        try:
+            search = _Search(exercise, function, examples, max(cost, 12))
+        except Unfit:
+            return ""
         hits = search.hits()
     if not hits:
         return ""
     best = min(hit.rank for hit in hits)
     hits = [hit for hit in hits if hit.rank == best]
     lines = sorted({hit.line - search.first + 1 if hit.line else 0 for hit in hits})
-    if len(lines) > 2 or lines[-1] - lines[0] > 1:
+    if len(lines) > 2 or (lines[-1] - lines[0] > 1 and lines[0] < search.body):
         return ""  # it could be here or there
-    kinds = [(hit.kind, hit.what) for hit in hits]
+    kinds = [(hit.kind, hit.what) for hit in sorted(hits, key=lambda hit: hit.line)]
     return sentence(kinds, lines, search.body)
 
 
@@ -67,15 +71,25 @@ class _Search:
         True  # an edit is no finding where what it must not be mistaken for (`Variant.unless`) does as well
     )
 
-    def __init__(self, exercise: Exercise, function: Callable, examples: list, trials: int) -> None:
-        self.exercise, self.examples, self.left = exercise, examples, trials
+    def __init__(self, exercise: Exercise, function: Callable, examples: list, cost: int) -> None:
+        self.exercise, self.examples, self.left = exercise, examples, max(1, BUDGET // cost)
+        self.end = time.monotonic() + SECONDS
         self.box = Sandbox(function)
+        rounds = [self._rounds(self.box.compile(), example) for example in examples]
+        self.box.most = min(TICKS, max(2 * max(rounds), ONE * max(rounds[0], 1) // cost))
         self.tree = self.box.tree
         self.first = self.tree.lineno
         self.body = self.tree.body[0].lineno - self.first + 1  # 1 where all stands in the line of the `def`
         self.chosen: dict[int, Variant] = {}
         self.ordinary: dict[int, Callable] = {}
         self.box.names[PROBE], self.box.names[LOCALS] = self._probe, locals
+
+    def _rounds(self, function: Callable, example) -> int:
+        """How many rounds of loops the function itself takes."""
+        self.box.ticks = 0
+        with contextlib.suppress(Exception, Stop):
+            function(*thaw(example.arguments))
+        return self.box.ticks
 
     def _probe(self, key: int, pieces: tuple, variables: dict) -> Any:
         variant = self.chosen.get(key)
@@ -87,13 +101,14 @@ class _Search:
             for hit in trials:
                 if hit is not None:
                     found.append(hit)
-                if self.left <= 0:
+                if self._over():
                     break
-            if found and rank >= min(hit.rank for hit in found):
-                break
-            if self.left <= 0:
+            if self._over() or (found and rank >= min(hit.rank for hit in found)):
                 break
         return found
+
+    def _over(self) -> bool:
+        return self.left <= 0 or time.monotonic() > self.end
 
     def _in_order(self) -> Iterator[tuple[int, Iterable[_Hit | None]]]:
         every = list(places.places(self.tree))
@@ -131,7 +146,7 @@ class _Search:
                 yield from self._try([place], variants, rank, place.node.lineno)
 
     def _groups(self, every: list[Place], rank: int) -> Iterator[_Hit | None]:
-        """The same edit at all places that look alike: every arctan2, every use of a name."""
+        """The same edit at all places that look alike, or at those of a line: every arctan2, every name."""
         groups: dict[str, list[Place]] = {}
         for place in every:
             if key := places.likeness(place.node):
@@ -139,9 +154,14 @@ class _Search:
         for group in groups.values():
             lines = {place.node.lineno for place in group}
             alike = len({len(place.variants) for place in group}) == 1
-            if len(group) > 1 and alike:
-                variants = [v for v in group[0].variants if v.rank == rank]
-                yield from self._try(group, variants, rank + 1, lines.pop() if len(lines) == 1 else 0)
+            if len(group) < 2 or not alike:
+                continue
+            in_lines = [[place for place in group if place.node.lineno == line] for line in sorted(lines)]
+            for some in [group, *in_lines] if len(lines) > 1 else [group]:
+                if len(some) > 1:
+                    variants = [v for v in some[0].variants if v.rank == rank]
+                    line = 0 if some is group and len(lines) > 1 else some[0].node.lineno
+                    yield from self._try(some, variants, rank + 1, line)
 
     def _arguments(self) -> Iterator[_Hit | None]:
         """An argument that comes in another form than the code thinks."""
@@ -180,7 +200,7 @@ class _Search:
                 self.chosen = {key: replace(v, value=v.unless or v.value) for key, v in self.chosen.items()}
                 good = not self._right(function)
             yield _Hit(rank, line, kind, what) if good else None
-            if self.left <= 0:
+            if self._over():
                 break
 
     # ---- is it right now?

@@ -40,7 +40,7 @@ def _turned_index(index):
 def _shifted(by: int) -> Callable:
     def change(index):
         if isinstance(index, slice):
-            return slice(*(None if x is None else x + by for x in (index.start, index.stop)), index.step)
+            return slice((index.start or 0) + by, None if index.stop is None else index.stop + by, index.step)
         return index + by
 
     return change

@@ -154,8 +154,8 @@ def _place(parent: ast.AST, field: str, at: int | None, node: ast.expr, variable
 
 
 def _may_wrap(parent: ast.AST, field: str, node: ast.expr) -> bool:
-    """Modules and functions are no values; sizes stay as they are; an index is changed as a whole."""
-    if isinstance(node, ast.Constant) or isinstance(getattr(node, "ctx", None), ast.Store):
+    """Modules, functions and truths are no values; sizes stay as they are; an index changes as a whole."""
+    if isinstance(node, ast.Constant | ast.Compare) or isinstance(getattr(node, "ctx", None), ast.Store):
         return False
     match parent:
         case ast.Attribute():

@@ -59,6 +59,7 @@ EVERY = {
     "call": "every `{}`: a call too many",
     "number": "the number {}, everywhere",
     "name": "`{}`, everywhere: another variable belongs there",
+    "missing": "`{}` is missing at several places",
 }
 
 
@@ -70,6 +71,8 @@ def sentence(kinds: list[tuple[str, str]], lines: list[int], body: int = 2) -> s
     """
     where, what = _lines(lines, body), _what(kinds)
     if not where and what == TEXTS["somewhere"]:
+        return ""
+    if what == TEXTS["somewhere"] and lines[-1] - lines[0] > 1:
         return ""
     elsewhere = "the arguments" if lines[-1] else "several lines at once"
     return f"look at {where or elsewhere}: {what}"
@@ -85,6 +88,8 @@ def _lines(lines: list[int], body: int) -> str:
 
 def _what(kinds: list[tuple[str, str]]) -> str:
     """One kind, or two of which either may be meant; three kinds say nothing."""
+    if len({kind for kind, _ in kinds}) > 2:  # of a rotation the inverse is the transpose: once is enough
+        kinds = [one for one in kinds if one[0] != "inverse" or ("transposed", one[1]) not in kinds]
     texts = list(dict.fromkeys(_one(kind, what) for kind, what in kinds))
     if len(texts) > 2:
         return TEXTS["somewhere"]

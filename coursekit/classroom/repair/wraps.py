@@ -16,6 +16,12 @@ def _millimetres(x):
     return x if np.any(quarters) and np.all(quarters == np.rint(quarters)) else 1000 * x
 
 
+def _halves_exchanged(x):
+    if np.shape(x)[:1] != (6,):
+        raise ValueError("no twist")
+    return np.roll(x, 3, axis=0)
+
+
 # (kind, what is done, what must not do as well). A copy mends what is shared, and then its transpose does so;
 # where any other length would do, neither a unit vector nor millimetres are the matter.
 _DONE: tuple[tuple[str, Callable, Callable | None], ...] = (
@@ -41,11 +47,14 @@ _DONE: tuple[tuple[str, Callable, Callable | None], ...] = (
     ("millimetres", _millimetres, lambda x: 1e5 * x),
     ("whole_numbers", lambda x: np.asarray(x, float), None),
     ("turn", lambda x: (x + np.pi) % (2 * np.pi) - np.pi, None),
-    ("halves", lambda x: np.roll(x, 3, axis=0), None),
+    ("halves", _halves_exchanged, None),
+    ("entries", lambda x: np.roll(x, 1, axis=0), None),
+    ("entries", lambda x: np.roll(x, -1, axis=0), None),
     ("negative_root", lambda x: np.maximum(x, 0), None),
     ("flipped", lambda x: x[:, ::-1], None),
 )
 
+_CALLS = ("arccos", "arcsin", "arctan", "cos", "sin")  # that may have been left out
 _ENTRIES = 3  # the first entries of a vector may be what is missing
 _JOINED: tuple[Callable, ...] = (
     lambda x, y: x + y,
@@ -66,6 +75,8 @@ def wraps(ordinary: Callable, variables: list[str], node: ast.expr) -> Iterator[
         rank = 1 if kind in ("sign", "transposed", "inverse", "copy") else 2
         unless = _done(ordinary, control) if control else None
         yield Variant(kind, _done(ordinary, do), rank=rank, unless=unless)
+    for name in _CALLS:
+        yield Variant("missing", _done(ordinary, getattr(np, name)), what=name, rank=2)
     inside = {n.id for n in ast.walk(node) if isinstance(n, ast.Name)}
     for name in variables:
         itself = isinstance(node, ast.Name) and node.id == name  # x - x and x / x are numbers, no repair

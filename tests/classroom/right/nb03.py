@@ -294,3 +294,38 @@ def jacobian_column__lists(kind, w, q, T):
     omega, v = (w, v) if kind == "revolute" else ([0, 0, 0], w)
     turn = lambda x: [sum(T[i][j] * x[i] for i in range(3)) for j in range(3)]  # noqa: E731
     return turn(omega) + turn(v)
+
+
+# -- other roads to the same
+
+
+def subproblem1__half_angle(k, x, y):
+    """Twice the angle between x' and the line half way."""
+    a, b = (v - k * np.dot(k, v) for v in (x, y))
+    a, b = a / np.linalg.norm(a), b / np.linalg.norm(b)
+    return (
+        2 * np.arctan2(np.linalg.norm(a - b), np.linalg.norm(a + b)) * (1 if k @ np.cross(a, b) >= 0 else -1)
+    )
+
+
+def elbow_solutions__complex(r, z, lengths):
+    a1, d1, a2, a3, d4 = lengths
+    p, fore = complex(r - a1, z - d1), complex(d4, -a3)
+    cosine = (a2**2 + abs(p) ** 2 - abs(fore) ** 2) / (2 * a2 * abs(p))
+    out = np.zeros((2, 2))
+    for i, sign in enumerate((1, -1)):
+        up = p / abs(p) * np.exp(1j * sign * np.arccos(cosine))
+        theta2 = -np.angle(up)
+        out[i] = theta2, -np.angle((p - a2 * up) / fore.conjugate()) - theta2
+    return out
+
+
+def newton_step__space_first(J_b, T_sb, T_sd):
+    """The twist seen from the room, then seen from the target, which it leaves where it is."""
+    e = lie.adjoint(lie.inverse(T_sd)) @ lie.log6(T_sd @ lie.inverse(T_sb))
+    return np.linalg.lstsq(J_b, e, rcond=1e-12)[0]
+
+
+def jacobian_column__matrices(kind, w, q, T):
+    screw = np.r_[w, np.cross(q, w)] if kind == "revolute" else np.r_[0, 0, 0, w]
+    return lie.vee6(lie.inverse(T) @ lie.hat6(screw) @ T)

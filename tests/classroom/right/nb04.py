@@ -95,6 +95,12 @@ def rank__numpy(J, tol):
     return np.linalg.matrix_rank(J, tol=tol * np.linalg.norm(J, 2))
 
 
+def rank__norm(J, tol):
+    _, S, _ = np.linalg.svd(J, full_matrices=False)
+    limit = tol * np.linalg.norm(J, ord=2)
+    return len([s for s in S if s > limit])
+
+
 def rank__lost(J, tol):
     _, sigma, _ = np.linalg.svd(np.asarray(J, dtype=float))
     return len(sigma) - np.count_nonzero(sigma / sigma[0] <= tol)

@@ -263,3 +263,29 @@ def slerp__rodrigues(R_0, R_1, t):
         return np.array(R_0, float)
     K = lie.hat3(beta / theta)
     return R_0 @ (np.eye(3) + np.sin(theta) * K + (1 - np.cos(theta)) * K @ K)
+
+
+def largest_speed__bisection(q, points, v_max):
+    low, high = 0.0, 1e9
+
+    def allowed(v):
+        for a, b, p, r in zip(q[:-1], q[1:], points[:-1], points[1:], strict=True):
+            if np.any(np.abs(b - a) * v > v_max * np.linalg.norm(r - p)):
+                return False
+        return True
+
+    for _ in range(200):
+        middle = (low + high) / 2
+        low, high = (middle, high) if allowed(middle) else (low, middle)
+    return low
+
+
+def tool_frames__projector(points, centre):
+    frames = np.zeros((len(points), 4, 4))
+    for i, p in enumerate(points):
+        n = (p - centre) / math.dist(p, centre)
+        d = points[i + 1] - p if i + 1 < len(points) else p - points[i - 1]
+        t = (np.eye(3) - np.outer(n, n)) @ d
+        t = t / np.sqrt(t @ t)
+        frames[i] = np.vstack([np.column_stack([n, t, np.cross(n, t), p]), [0, 0, 0, 1]])
+    return frames
