@@ -143,6 +143,7 @@ def test_every_arm(name):
     panel = view.explore_jacobians(robot)
     try:
         assert robot.within_limits(panel.scene.robots["robot"].theta)
+        assert panel.values["pose"][2] >= 0, "the target is in the floor"
         assert "Newton: " in panel.line.value and "Error" not in panel.line.value
     finally:
         panel.close()

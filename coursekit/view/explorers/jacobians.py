@@ -79,9 +79,10 @@ class _Jacobians(yours.Jacobians, Explorer):
         super().__init__(mine, robot)
         self.poses = poses
         goal = robot.home
-        # a goal that is singular itself shows nothing but slowness
+        # a goal that is singular itself shows nothing but slowness, one in the floor cannot be
         if singularity.sigma_min(robot, goal) < 0.05:
-            goal = np.clip(goal + 0.5, robot.q_min, robot.q_max)
+            beside = [np.clip(goal + by, robot.q_min, robot.q_max) for by in (0.5, -0.5)]
+            goal = next((theta for theta in beside if robot.fk(theta)[2, 3] >= 0), beside[0])
         self.near = _nearly_singular(robot)
         self.pose = pose_sliders(robot.fk(goal), robot)
         self.pose.folded = "where {d} is"
