@@ -229,7 +229,7 @@ def _a_row_for_a_column(exercise: Exercise, frame: FrameType, arguments: list) -
     for name, S in zip(exercise.arguments, thaw(arguments), strict=False):
         if name in ("S", "J", "J_b") and np.ndim(S) == 2:
             for own, value in frame.f_locals.items():
-                if np.ndim(value) == 1 and any(np.array_equal(value, row) for row in S):
+                if isinstance(value, np.ndarray) and any(np.array_equal(value, row) for row in S):
                     return f"`{own}` is a row of {name}; its columns come one by one from {name}.T"
     return ""
 

@@ -67,13 +67,6 @@ def half_turn(rng):
     return [0.0, 0.0, 1.0], [x, y, z], [-x, -y, z]
 
 
-def in_line_only(rng):
-    """As at joint 1, which turns "forward" to the side where P is: only directions across k count."""
-    k, x, y = turn_by(rng, 0.25, 2.9)
-    height = k @ y
-    return k, x, rng.uniform(1.3, 2) * (y - k * height) + k * (height + rng.uniform(0.5, 1.5))
-
-
 def whole_turn_numbers(rng):
     a, b, c = (int(i) for i in rng.integers(1, 5, 3))
     return [0, 1, 0], [a, b, c], [c, b, -a]
@@ -276,10 +269,9 @@ def whole_search(rng):
 # ---- laws
 
 
-def points_to_y(_f, args, t):
+def turns_x_to_y(_f, args, t):
     k, x, y = args
-    a, b = (np.cross(k, p) for p in (turned(k, x, t), y))
-    return bool(np.allclose(a * np.linalg.norm(b), b * np.linalg.norm(a), atol=1e-6))
+    return bool(np.allclose(turned(k, x, t), y, atol=1e-6))
 
 
 def reaches(_f, args, solutions):

@@ -75,12 +75,11 @@ EXERCISES = [
                 "where x and y are at right angles to k", lambda rng: _draw.turn_by(rng, 0.25, 1.3, True), 2
             ),
             Edge("for half a turn", _draw.half_turn),
-            Edge("where y lies farther out than x, and at another height", _draw.in_line_only, 2),
             Edge("for whole numbers", _draw.whole_turn_numbers),
         ),
         usual="for turns between 0 and 90 degrees",
         residual=_say.turned_too_far,
-        laws=(("seen along k, x turned by your angle must point where y does", _draw.points_to_y),),
+        laws=(("turning x by your angle about k must give y", _draw.turns_x_to_y),),
         hints=(
             Hint("swapped", "numpy's arctan2 takes the sine first, then the cosine"),
             Hint("not_removed", "only the parts of x and y across k turn: take the part along k away first"),

@@ -302,10 +302,8 @@ def jacobian_column__lists(kind, w, q, T):
 def subproblem1__half_angle(k, x, y):
     """Twice the angle between x' and the line half way."""
     a, b = (v - k * np.dot(k, v) for v in (x, y))
-    a, b = a / np.linalg.norm(a), b / np.linalg.norm(b)
-    return (
-        2 * np.arctan2(np.linalg.norm(a - b), np.linalg.norm(a + b)) * (1 if k @ np.cross(a, b) >= 0 else -1)
-    )
+    sense = 1 if k @ np.cross(a, b) >= 0 else -1
+    return 2 * np.arctan2(np.linalg.norm(a - b), np.linalg.norm(a + b)) * sense
 
 
 def elbow_solutions__complex(r, z, lengths):
