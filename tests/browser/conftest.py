@@ -3,6 +3,8 @@
 Where there is no browser the tests are skipped with the reason; with CI=true they fail instead.
 """
 
+import secrets
+
 import pytest
 
 from tests.browser.explorer import IMPORT, SHOW, Explorer
@@ -43,7 +45,9 @@ def notebook(lab, browser):
 
 def explorer_in(notebook, request, name, robot, line):
     code = "import numpy as np\nfrom coursekit import robots, view"
-    written = notebook.lab.write(f"{request.node.name}.ipynb", code, f"panel = {line}\npanel")
+    # another name for another try: JupyterLab gives a notebook of the same name the kernel that it had
+    file = f"{request.node.name}_{secrets.token_hex(3)}.ipynb"
+    written = notebook.lab.write(file, code, f"panel = {line}\npanel")
     notebook.open(written)
     notebook.run_all()
     notebook.wait_view()

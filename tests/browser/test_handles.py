@@ -104,6 +104,7 @@ def test_all_solutions_follow_the_target_while_the_kernel_is_busy(opened):
     for k in range(1, 7):
         explorer.page.mouse.move(*(start + [0, 6 * k]))
         explorer.page.wait_for_timeout(60)
+    explorer.page.wait_for_timeout(500)  # on a busy machine the last frame may be still to come
     assert np.linalg.norm(assert_all_have_followed() - slid) > 0.02
     explorer.page.mouse.up()
     explorer.settle()
