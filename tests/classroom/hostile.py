@@ -155,6 +155,13 @@ while True:
     except BaseException:
         pass
 """
+FORKS = """
+import os, time
+for _ in range(6):
+    if os.fork() == 0:
+        x = np.ones(60_000_000)
+        time.sleep(60)
+"""
 
 fk_kind(
     "definitions_below_a_call_of_the_library",
@@ -642,14 +649,7 @@ fk_kind("floods_the_memory", NO_FK, "x = []\nwhile True:\n    x.append(np.ones(5
 fk_kind(
     "floods_the_memory_by_forks",
     NO_FK,
-    """
-import os, time
-for _ in range(6):
-    if os.fork() == 0:
-        x = np.ones(60_000_000)
-        time.sleep(60)
-time.sleep(60)
-""",
+    FORKS + "time.sleep(60)\n",
     "no answer",  # its memory or, on a slow machine, its time is over
 )
 fk_kind(
@@ -668,12 +668,8 @@ time.sleep(60)
 fk_kind(
     "floods_the_memory_and_talks_without_end",
     NO_FK,
-    """
-import os, time
-for _ in range(6):
-    if os.fork() == 0:
-        x = np.ones(60_000_000)
-        time.sleep(60)
+    FORKS
+    + """\
 for descriptor in range(3, 20):
     try:
         while os.readlink(f"/proc/self/fd/{descriptor}").startswith("pipe"):
