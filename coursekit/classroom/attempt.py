@@ -219,18 +219,21 @@ def _explain(exercise: Exercise, function: Callable, error: Exception, arguments
     text = f"line {line} of {frame.f_code.co_name} raises {text}{_source_line(frame.f_code, at)}"
     if told := _variables(frame, at):
         text += f"\n  there {told}"
-    if plain := _a_row_for_a_column(exercise, frame, arguments) or plain:
+    if plain := _a_row_for_a_column(exercise, frame, arguments, error) or plain:
         text += f"\n  {plain}"
     return Attempt(fault="error", text=text)
 
 
-def _a_row_for_a_column(exercise: Exercise, frame: FrameType, arguments: list) -> str:
-    """ "`s` is a row of S, ...": of what holds six numbers in each column, a loop takes the rows."""
+def _a_row_for_a_column(exercise: Exercise, frame: FrameType, arguments: list, error: Exception) -> str:
+    """ "`s` is a row of S, ...": of what holds six numbers in each column, a loop or an index takes a row."""
     for name, S in zip(exercise.arguments, thaw(arguments), strict=False):
         if name in ("S", "J", "J_b") and np.ndim(S) == 2:
             for own, value in frame.f_locals.items():
                 if isinstance(value, np.ndarray) and any(np.array_equal(value, row) for row in S):
                     return f"`{own}` is a row of {name}; its columns come one by one from {name}.T"
+            if "must have shape (..., 6)" in str(error):
+                columns = f"{name}[:, i], or {name}.T in a loop"
+                return f"six numbers are a column of {name}: {columns}; {name}[i] is a row"
     return ""
 
 

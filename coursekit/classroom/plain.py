@@ -24,7 +24,6 @@ WORDS = {
     "encountered in arccos": "the arccosine of a number beyond 1",
     "encountered in arcsin": "the arcsine of a number beyond 1",
     "divide by zero": "a division by 0",
-    "must have shape (..., 6)": "six numbers are a column of S: S[:, i], or S.T in a loop; S[i] is a row",
     "encountered in divide": "0 divided by 0",
     "encountered in scalar divide": "0 divided by 0",
     "bitwise_xor": "a power is written x ** 2; ^ does something else, with bits",
