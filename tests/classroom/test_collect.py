@@ -6,6 +6,7 @@ import csv
 import io
 import os
 import zipfile
+from pathlib import Path
 
 import pytest
 
@@ -206,6 +207,33 @@ def test_what_is_no_notebook_is_listed_unless_a_notebook_lies_beside_it(tmp_path
     listed = ["    M?ller.txt", "    bob: essay.pdf, photo.jpg", "    eve: ?[2J.pdf"]
     assert said.endswith("\n".join(["no notebook, left aside (3):", *listed]))
     assert f"'=1+1/{DH}" in (tmp_path / "out" / collect.TABLE).read_text("utf-8-sig")
+
+
+@pytest.mark.parametrize("fault", [KeyboardInterrupt(), OSError(28, "No space left on device"), None])
+def test_what_is_interrupted_leaves_nothing_and_can_be_run_again(tmp_path, people, monkeypatch, fault):
+    """Half a class would be graded as if the other half had handed in nothing."""
+    source, out = tree(tmp_path / "in", CANVAS), tmp_path / "in" / "out"
+    told = collect.collect(source, tmp_path / "uninterrupted", people)
+    real, written = Path.write_bytes, []
+
+    def until_the_third(path, data):
+        written.append(path)
+        if len(written) == 3:
+            real(path, data[:5])
+            raise fault or SystemExit
+        return real(path, data)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Path, "write_bytes", until_the_third)
+        if fault is None:  # killed: nothing tidies up
+            patch.setattr(collect.shutil, "rmtree", lambda *_, **__: None)
+        with pytest.raises(type(fault) if fault else SystemExit):
+            collect.collect(source, out, people)
+    assert not out.exists()
+    assert fault is None or [path.name for path in source.iterdir() if path.name not in CANVAS] == []
+    assert collect.collect(source, out, people) == told.replace(str(tmp_path / "uninterrupted"), str(out))
+    assert collected(out) == collected(tmp_path / "uninterrupted")
+    assert sorted(path.name for path in source.iterdir()) == sorted([*CANVAS, "out"])
 
 
 def test_names_that_fit_two_students_are_nobodys(tmp_path):

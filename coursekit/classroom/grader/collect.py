@@ -2,7 +2,8 @@
 
 Nothing is lost: every notebook and archive that finds no place is listed, with the reason, and so is every
 older attempt. What was found about a submission (where it came from, when, whether it was late) is kept in
-SUBMISSIONS/collected.csv, from which the grader takes the time.
+SUBMISSIONS/collected.csv, from which the grader takes the time. The folder is there when it is whole, or not
+at all: it is written beside, under another name.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import io
 import json
 import os
 import re
+import shutil
 import zipfile
 import zlib
 from collections.abc import Iterator
@@ -29,6 +31,7 @@ from .report import harmless
 
 ARCHIVES = (".zip", ".tar", ".gz", ".7z", ".rar")
 TABLE = "collected.csv"
+PART = ".part"  # how the folder is called until it is whole
 COLUMNS = ("student", "notebook", "submitted", "late", "canvas", "moodle", "from")
 DEEPEST = 4  # zips in zips
 LARGEST_ARCHIVE = 500_000_000  # bytes of a zip in a zip
@@ -65,6 +68,8 @@ def collect(source: Path, out: Path, roster_path: Path | None = None, course: Co
         raise ValueError(f"{source} does not exist: name the zip or the folder that was downloaded")
     if out.exists() and any(out.iterdir()):
         raise ValueError(f"{out} holds something already: name a new folder")
+    part = out.resolve().with_name(f".{out.resolve().name}{PART}")
+    shutil.rmtree(part, ignore_errors=True)  # of a run that was killed
     students = roster.read(roster_path) if roster_path else None
     expected = [course.notebook(unit).name for unit in course.units if course.exercises(unit)]
     problems: list[str] = []
@@ -72,10 +77,15 @@ def collect(source: Path, out: Path, roster_path: Path | None = None, course: Co
     chosen, older = _choose(source, Register(students), expected, problems, aside)
     if not chosen and not problems:
         raise ValueError(f"{source} holds no notebook (.ipynb) and no zip")
-    _write(out, chosen)
     missing = [one.id for one in students or () if one.id not in {student for student, _ in chosen}]
-    for student in missing:  # a row in grades.csv, too
-        (out / student).mkdir(parents=True)
+    try:
+        _write(part, chosen, missing)
+        if out.exists():
+            shutil.copymode(out, part)
+            out.rmdir()
+        os.replace(part, out.resolve())
+    finally:
+        shutil.rmtree(part, ignore_errors=True)
     return _summary(out, chosen, older, problems, aside, missing)
 
 
@@ -118,8 +128,8 @@ def _owner(data: bytes) -> tuple[str, ...]:
     return (whose,) if isinstance(whose, str) else ()
 
 
-def _write(out: Path, chosen: Chosen) -> None:
-    out.mkdir(parents=True, exist_ok=True)
+def _write(out: Path, chosen: Chosen, missing: list[str]) -> None:
+    out.mkdir(parents=True)
     with open(out / TABLE, "w", newline="", encoding="utf-8-sig", errors="replace") as file:
         table = csv.writer(file)
         table.writerow(COLUMNS)
@@ -132,6 +142,8 @@ def _write(out: Path, chosen: Chosen) -> None:
             late = "late" if said.late else ""
             row = [student, name, time.isoformat(" ", "seconds"), late, said.canvas, said.moodle]
             table.writerow([*row, harmless(found.place)])
+    for student in missing:  # a row in grades.csv, too
+        (out / student).mkdir()
 
 
 def _summary(
@@ -277,7 +289,10 @@ def _is_wanted(name: str) -> bool:
 def _is_nobodys(parts: tuple[str, ...]) -> bool:
     """What JupyterLab and macOS leave beside people's work."""
     hidden = parts[-1].startswith("._") or parts[-1] in (".DS_Store", "Thumbs.db", "desktop.ini", TABLE)
-    return hidden or any(part in ("__MACOSX", ".ipynb_checkpoints", ".git", ".venv") for part in parts)
+    ours = any(part.startswith(".") and part.endswith(PART) for part in parts)
+    return (
+        hidden or ours or any(part in ("__MACOSX", ".ipynb_checkpoints", ".git", ".venv") for part in parts)
+    )
 
 
 def read_table(folder: Path) -> list[dict[str, str]]:
