@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from coursekit.classroom.author.notebook import student_version
 from coursekit.classroom.grader.box import bubblewrap, no_boxes_inside
+from coursekit.classroom.grader.syscalls import refused
 
 FULL = (2, 3, 3, 4)
 NO_FK = (0, 3, 3, 4)
@@ -156,11 +157,16 @@ while True:
         pass
 """
 FORKS = """
-import os, time
+import ctypes, os, threading, time
+
+def hold():
+    x = np.ones(60_000_000)
+    time.sleep(60)
+
 for _ in range(6):
     if os.fork() == 0:
-        x = np.ones(60_000_000)
-        time.sleep(60)
+        threading.Thread(target=hold).start()
+        ctypes.CDLL(None).syscall(60 if os.uname().machine == "x86_64" else 93, 0)  # it alone goes
 """
 
 fk_kind(
@@ -652,19 +658,28 @@ fk_kind(
     FORKS + "time.sleep(60)\n",
     "no answer",  # its memory or, on a slow machine, its time is over
 )
-fk_kind(
-    "floods_the_memory_by_files_without_names",
-    NO_FK,
-    """
-import os, time
-files = [os.memfd_create(str(i)) for i in range(30)]
-for file in files:
-    for _ in range(10):
-        os.write(file, b"x" * 10_000_000)
-time.sleep(60)
+if refused():
+    fk_kind(
+        "memory_that_no_process_holds",
+        FULL,  # if there is none
+        """
+import ctypes, mmap, os, socket
+kernel = ctypes.CDLL(None)
+made = [kernel.shmget(0, 1 << 20, 0o1600), kernel.msgget(0, 0o1600), kernel.semget(0, 9, 0o1600)]
+pair = socket.socketpair()
+for get in (
+    lambda: os.memfd_create("x"),
+    lambda: socket.send_fds(pair[0], [b"x"], [0]),
+    lambda: mmap.mmap(-1, 1 << 20),
+    lambda: open("/dev/zero", "r+b"),
+):
+    try:
+        made.append(get())
+    except OSError:
+        pass
+return right(theta, l1, l2) if made == [-1, -1, -1] else made
 """,
-    "no answer",
-)
+    )
 fk_kind(
     "floods_the_memory_and_talks_without_end",
     NO_FK,
@@ -683,16 +698,23 @@ fk_kind(
     "floods_the_memory_by_sockets",
     NO_FK,
     """
-import socket, time
-pairs = [socket.socketpair() for _ in range(480)]
-for a, _ in pairs:
-    a.setblocking(False)
-    try:
-        while True:
-            a.send(b"x" * 60_000)
-    except BlockingIOError:
-        pass
-open(0) if len(pairs) < 480 else time.sleep(60)
+import ctypes, socket, threading, time
+
+def fill():
+    ctypes.CDLL(None).unshare(0x400)  # from now on this thread has files of its own
+    pairs = [socket.socketpair() for _ in range(480)]
+    for a, _ in pairs:
+        a.setblocking(False)
+        try:
+            while True:
+                a.send(b"x" * 60_000)
+        except BlockingIOError:
+            pass
+    time.sleep(60)
+
+thread = threading.Thread(target=fill)
+thread.start()
+thread.join()
 """,
     "no answer",
 )

@@ -7,6 +7,7 @@ nothing of the host that can be written. It is talked to over two pipes, in JSON
 from __future__ import annotations
 
 import contextlib
+import glob
 import importlib.util
 import json
 import os
@@ -25,7 +26,10 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from .syscalls import refused
+
 GRACE = 2.0  # seconds for the box to say itself that its time is over
+IN_MEMORY = ("/tmp", "/dev/shm")  # where the box can write
 LOOK = 0.2  # seconds between two looks at what the box uses
 
 
@@ -96,16 +100,18 @@ class Box:
     def __init__(self, library: Path, limits: Limits, program: str | None, released: bool = False) -> None:
         self.limits = limits
         self._home = None if program else tempfile.mkdtemp(prefix="home")
-        self._process = subprocess.Popen(
-            _command(library, limits, program, self._home or "/tmp/home", released),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,  # what is printed below Python's level goes nowhere
-            env={"PATH": os.environ.get("PATH", os.defpath)},
-            cwd=self._home or "/",
-            start_new_session=True,
-            **(nobody() if program and _open_to_all(library) else {}),
-        )
+        with _filters(program) as filters:
+            self._process = subprocess.Popen(
+                _command(library, limits, program, self._home or "/tmp/home", released, filters),
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL,  # what is printed below Python's level goes nowhere
+                env={"PATH": os.environ.get("PATH", os.defpath)},
+                cwd=self._home or "/",
+                start_new_session=True,
+                pass_fds=filters,
+                **(nobody() if program and _open_to_all(library) else {}),
+            )
         self._read = b""
         self._next_look = time.monotonic() + LOOK
         self.cpu = 0.0  # seconds it used, known when it is closed
@@ -179,19 +185,35 @@ class Box:
 
 
 def used(root: int) -> int:
-    """Bytes of memory of a process and all that descend from it, files in memory without a name included."""
-    total, seen = 0, set()
+    """Bytes of memory of a process and all that descend from it, of files in memory, of what sockets hold.
+
+    Thread by thread: the first of them may be gone, and each may have files of its own.
+    """
+    total, sockets, files = 0, set(), dict[int, int]()
     for pid in _family(root):
-        with contextlib.suppress(OSError, ValueError, IndexError):
-            total += int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
-        with contextlib.suppress(OSError):
-            for entry in os.scandir(f"/proc/{pid}/fd"):
-                with contextlib.suppress(OSError):
-                    file = os.stat(entry.path)
-                    if file.st_ino not in seen and os.readlink(entry.path).startswith(("/memfd:", "socket:")):
-                        seen.add(file.st_ino)
-                        total += _of_a_socket() if stat.S_ISSOCK(file.st_mode) else 512 * file.st_blocks
-    return total
+        tasks = glob.glob(f"/proc/{pid}/task/*")
+        total += max(map(_resident, tasks), default=0)
+        for place in (place for task in tasks for place in glob.iglob(f"{task}/fd/*")):
+            with contextlib.suppress(OSError):
+                if stat.S_ISSOCK((file := os.stat(place)).st_mode):
+                    sockets.add(file.st_ino)
+        for folder in IN_MEMORY:
+            with contextlib.suppress(OSError):
+                if (device := os.stat(place := f"/proc/{pid}/root{folder}").st_dev) != os.stat(folder).st_dev:
+                    files[device] = _in_files(os.statvfs(place))
+    return total + sum(files.values()) + len(sockets) * _of_a_socket()
+
+
+def _resident(task: str) -> int:
+    with contextlib.suppress(OSError, ValueError, IndexError):
+        return int(Path(f"{task}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    return 0
+
+
+def _in_files(system: os.statvfs_result) -> int:
+    """Also an empty file takes about a kilobyte, and the system's size does not limit their number."""
+    used = (system.f_blocks - system.f_bfree) * system.f_frsize
+    return used + 1024 * (system.f_files - system.f_ffree)
 
 
 @cache
@@ -235,7 +257,24 @@ def _parents() -> Iterator[tuple[int, int]]:
 # ---- the command
 
 
-def _command(library: Path, limits: Limits, program: str | None, home: str, released: bool) -> list[str]:
+@contextlib.contextmanager
+def _filters(program: str | None) -> Iterator[list[int]]:
+    """Where bubblewrap can read, once, what the kernel is to refuse."""
+    if program is None or not refused():
+        yield []
+        return
+    there, here = os.pipe()
+    with open(here, "wb") as file:
+        file.write(refused())
+    try:
+        yield [there]
+    finally:
+        os.close(there)
+
+
+def _command(
+    library: Path, limits: Limits, program: str | None, home: str, released: bool, filters: list[int]
+) -> list[str]:
     environment = {
         "HOME": home,
         "PATH": f"{Path(sys.executable).parent}:/usr/bin:/bin",
@@ -250,31 +289,21 @@ def _command(library: Path, limits: Limits, program: str | None, home: str, rele
     python += ["-B", str(library / "runner.py"), "released" if released else "locked"]
     python += [] if program is None else [PACKAGES]
     if shutil.which("prlimit"):
-        asked = {
-            "as": limits.memory,
-            "fsize": limits.home,
-            "cpu": limits.cpu,
-            "nproc": limits.processes,
-            "nofile": 1024,
-        }
-        python = ["prlimit", *(f"--{name}={value}" for name, value in {**asked, "core": 0}.items()), *python]
+        asked = {"as": limits.memory, "fsize": limits.home, "cpu": limits.cpu, "core": 0}
+        asked |= {"nproc": limits.processes, "nofile": 1024}
+        python = ["prlimit", *(f"--{name}={value}" for name, value in asked.items()), *python]
     if program is None:
         return ["env", "-i", *(f"{name}={value}" for name, value in environment.items()), *python]
-    box = [
-        program,
-        "--unshare-all",
-        *no_boxes_inside(program),
-        "--die-with-parent",
-        "--new-session",
-        "--cap-drop",
-        "ALL",
-    ]
-    box += ["--hostname", "box", "--clearenv", "--proc", "/proc", "--dev", "/dev"]
+    box = [program, "--unshare-all", *no_boxes_inside(program), "--die-with-parent", "--new-session"]
+    box += ["--cap-drop", "ALL", "--hostname", "box", "--clearenv", "--proc", "/proc", "--dev", "/dev"]
+    for pipe in filters:
+        box += ["--seccomp", str(pipe)]
+    box += ["--ro-bind", "/dev/null", "/dev/zero"]  # mapped and shared, it is memory that is not counted
     for path in _OF_THE_HOST:  # a root's box could otherwise write there: it has the host's user number
         if os.path.exists(path):
             box += ["--ro-bind", path, path]
-    # first, because the course itself may lie in /tmp
-    box += ["--size", str(limits.home), "--tmpfs", "/tmp", "--size", str(limits.home), "--tmpfs", "/dev/shm"]
+    for folder in IN_MEMORY:  # first, because the course itself may lie in /tmp
+        box += ["--size", str(limits.home), "--tmpfs", folder]
     for path in _visible():
         box += ["--ro-bind", path, path]
     for path in _other_packages():  # of another Python, or installed beside the course: not for students

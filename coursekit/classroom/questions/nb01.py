@@ -71,11 +71,9 @@ QUESTIONS = [
         "is the origin of frame a, seen from b? [x, y, z] in metres",
         answer=lambda px, py: [-py, px, 0],
         slips={
-            "-p is the way back, but written in a: seen from b it is turned, -R'p.": lambda px, py: [
-                -px,
-                -py,
-                0,
-            ],
+            "-p is the way back, but written in a: seen from b it is turned, -R'p.": (
+                lambda px, py: [-px, -py, 0]
+            ),
             "That is R'p: the way back has the other sign.": lambda px, py: [py, -px, 0],
         },
     ),
@@ -95,12 +93,9 @@ QUESTIONS = [
             "The upper arm is the common normal of axes 2 and 3: an a, not a d.": (
                 lambda L1, L2, L3, L4: [0, 0, L2, -90]
             ),
-            "z_1 and z_2 both point into the page: there is no twist.": lambda L1, L2, L3, L4: [
-                L2,
-                -90,
-                0,
-                -90,
-            ],
+            "z_1 and z_2 both point into the page: there is no twist.": (
+                lambda L1, L2, L3, L4: [L2, -90, 0, -90]
+            ),
             **_other_units(lambda L1, L2, L3, L4: [L2, 0, 0, -90]),
         },
     ),
@@ -111,12 +106,9 @@ QUESTIONS = [
         "Row 4 of its table, x_4 upwards as x_3: [a in mm, alpha in degrees, d in mm, theta in degrees]?",
         answer=lambda L1, L2, L3, L4: [0, 90, L4, 0],
         slips={
-            "The forearm lies along axis 4, that is z_3: a d, not an a.": lambda L1, L2, L3, L4: [
-                L4,
-                90,
-                0,
-                0,
-            ],
+            "The forearm lies along axis 4, that is z_3: a d, not an a.": (
+                lambda L1, L2, L3, L4: [L4, 90, 0, 0]
+            ),
             "z_3 (forward) turns into z_4 (into the page) about x_4 (up): look at the sense.": (
                 lambda L1, L2, L3, L4: [0, -90, L4, 0]
             ),

@@ -63,14 +63,9 @@ QUESTIONS = [
         answer=lambda L1, L2, L3, L4: [1, 0, 0, 0, L1 + L2 + L3, 0],
         slips={
             "v = -w x q has the other sign.": lambda L1, L2, L3, L4: [1, 0, 0, 0, -L1 - L2 - L3, 0],
-            "The forearm runs L3 above the end of the upper arm.": lambda L1, L2, L3, L4: [
-                1,
-                0,
-                0,
-                0,
-                L1 + L2,
-                0,
-            ],
+            "The forearm runs L3 above the end of the upper arm.": (
+                lambda L1, L2, L3, L4: [1, 0, 0, 0, L1 + L2, 0]
+            ),
             "The direction comes first: (omega; v).": lambda L1, L2, L3, L4: [0, L1 + L2 + L3, 0, 1, 0, 0],
         },
     ),
@@ -83,14 +78,9 @@ QUESTIONS = [
         slips={
             "v = -w x q has the other sign.": lambda L1, L2, L3, L4: [0, 1, 0, L1 + L2 + L3, 0, -L4],
             "v is not the point q, but -w x q.": lambda L1, L2, L3, L4: [0, 1, 0, L4, 0, L1 + L2 + L3],
-            "The forearm runs L3 above the end of the upper arm.": lambda L1, L2, L3, L4: [
-                0,
-                1,
-                0,
-                -L1 - L2,
-                0,
-                L4,
-            ],
+            "The forearm runs L3 above the end of the upper arm.": (
+                lambda L1, L2, L3, L4: [0, 1, 0, -L1 - L2, 0, L4]
+            ),
         },
     ),
     Question(

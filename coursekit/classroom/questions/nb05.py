@@ -72,14 +72,9 @@ QUESTIONS = [
         answer=lambda c, p: [0, 0, 0, 0, c, float(np.sqrt(1 - c**2))],
         slips={
             "A slide turns nothing: its omega is 0.": lambda c, p: [0, c, float(np.sqrt(1 - c**2)), 0, 0, 0],
-            "No lever enters: every point moves alike.": lambda c, p: [
-                0,
-                0,
-                0,
-                0,
-                p * c,
-                p * float(np.sqrt(1 - c**2)),
-            ],
+            "No lever enters: every point moves alike.": (
+                lambda c, p: [0, 0, 0, 0, p * c, p * float(np.sqrt(1 - c**2))]
+            ),
         },
     ),
     Question(
@@ -93,11 +88,9 @@ QUESTIONS = [
         "column 1 of J_b, along the tool's axes, as a list of three numbers, in metres?",
         answer=lambda l1, l2, theta: [l1 * np.sin(np.radians(theta)), l2 + l1 * np.cos(np.radians(theta)), 0],
         slips={
-            "The arm is bent: link 1 lies along the tool's y axis, not its x axis.": lambda l1, l2, theta: [
-                0,
-                l1 + l2,
-                0,
-            ],
+            "The arm is bent: link 1 lies along the tool's y axis, not its x axis.": (
+                lambda l1, l2, theta: [0, l1 + l2, 0]
+            ),
             "The sign of the x part: joint 1 carries the tool to the side of link 1.": lambda l1, l2, theta: [
                 -l1 * np.sin(np.radians(theta)),
                 l2,

@@ -21,32 +21,13 @@ TICKS = 3_000  # rounds of loops in one trial, at most
 MODULES = ("numpy", "math", "cmath", "itertools", "functools", "copy", "scipy.linalg")
 # What could leave a trace, or never come back.
 REFUSED = (
-    "open",
-    "input",
-    "exec",
-    "eval",
-    "exit",
-    "quit",
-    "compile",
-    "breakpoint",
-    "globals",
-    "vars",
-    "setattr",
+    *("open", "input", "breakpoint", "exit", "quit"),
+    *("exec", "eval", "compile", "globals", "vars", "setattr"),
 )
 TRACES = (
-    *(
-        "save",
-        "savez",
-        "savez_compressed",
-        "savetxt",
-        "tofile",
-        "dump",
-        "fromfile",
-        "memmap",
-        "load",
-        "loadtxt",
-    ),
-    *("genfromtxt", "random", "seterr", "setflags", "set_printoptions", "show", "plot", "figure", "system"),
+    *("save", "savez", "savez_compressed", "savetxt", "tofile", "dump", "show", "plot", "figure", "system"),
+    *("load", "loadtxt", "genfromtxt", "fromfile", "memmap"),
+    *("random", "seterr", "setflags", "set_printoptions"),
 )
 
 

@@ -313,18 +313,8 @@ def _call(node: ast.Call, variables: list[str]) -> Made:
 
 _AXES = (0, 1, -1)
 _ALONG_AXES = (
-    "norm",
-    "sum",
-    "max",
-    "min",
-    "mean",
-    "all",
-    "any",
-    "diff",
-    "cumsum",
-    "flip",
-    "argmax",
-    "argmin",
+    *("norm", "sum", "max", "min", "mean", "argmax", "argmin"),
+    *("all", "any", "diff", "cumsum", "flip"),
 )
 
 
