@@ -105,3 +105,18 @@ def test_every_command_explains_itself(command, capsys):
         main([command, "--help"])
     assert stopped.value.code == 0
     assert f"coursekit {command}" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("word", ["a" * 190_000 + "!", "a." * 90_000 + "!", "x[0]" * 40_000 + "-"])
+def test_no_question_for_help_is_read_for_hours(word):
+    """IPython's own pattern tries every letter of a word as its beginning, up to its end."""
+    assert cells.plain_python(f"{word}?") == f"{word}?"
+    assert "getoutput" in cells.plain_python(f"# {word}\nx = !ls")
+    assert "pinfo" in cells.plain_python("np.cos?\n!ls")
+
+
+def test_what_a_function_needs_is_found_by_names_in_any_order():
+    chain = [f"v{k} = v{k + 1}" for k in range(3000)]
+    source = "\n".join([*chain[::-1], "w = 1", "def fk():", "    return v0"])
+    (kept,) = cells.needed([source], "fk")
+    assert kept.split("\n") == [*chain[::-1], "#", "def fk():", "    return v0"]

@@ -10,6 +10,7 @@ LARGEST = 20_000_000  # bytes of a notebook
 LONGEST = 200_000  # characters of a cell: more takes Python's own reader minutes
 EFFORT = 2_000_000  # characters read of all cells; IPython reads a cell anew for each magic in it
 _MAGIC = re.compile(r"^[ \t]*[%!?/,;]|\?[ \t]*$|=[ \t]*[%!]", re.MULTILINE)
+_HELP, _LONG_WORD = re.compile(r"\?\s*$", re.MULTILINE), re.compile(r"[\w*.\[\]-]{1000}")
 _RUNS_ITS_BODY = ("time", "timeit", "capture", "prun")  # of the magics that stand above a whole cell
 
 # A module that a cell writes, for others to import: the import system has to look into the folder again.
@@ -67,8 +68,8 @@ def plain_python(text: str) -> str:
         if file := _MODULE.fullmatch(first):
             return _WRITE.format(file[2], "a" if file[1] else "w", body)
         return plain_python(f"#\n{body}") if name in _RUNS_ITS_BODY else ""
-    if _parses(text):
-        return text
+    if _parses(text) or (_HELP.search(text) and _LONG_WORD.search(text)):
+        return text  # where `?` asks for help, IPython would read such a word for hours
     from IPython.core.inputtransformer2 import TransformerManager  # text to text: nothing is run
 
     try:
@@ -151,15 +152,18 @@ def defined(node: ast.stmt) -> set[str]:
 
 def needed(sources: list[str], name: str) -> list[str]:
     """Of every cell what defines a function, and what that uses in turn; nothing else of them is in it."""
-    found = []
-    for source in sources:
-        for node in parsed(source).body:
-            found.append((defined(node), _used(node)))
-    names, before = {name, "*"}, set[str]()
-    while names != before:
-        before = set(names)
-        for makes, used in found:
-            names |= used if makes & names else set()
+    made: dict[str, list[set[str]]] = {}  # {name: what each statement that makes it uses}
+    for node in (node for source in sources for node in parsed(source).body):
+        used = _used(node)
+        for one in defined(node):
+            made.setdefault(one, []).append(used)
+    names, waiting = set[str](), [name, "*"]
+    while waiting:
+        if (one := waiting.pop()) not in names:
+            names.add(one)
+            for used in made.get(one, ()):
+                waiting += used
+                used.clear()  # read once, however many names a statement makes
     return [definitions(source, 0, names) for source in sources]
 
 
