@@ -149,6 +149,42 @@ def test_a_zip_of_each_student_and_what_the_site_writes(tmp_path, people):
     assert collected(tmp_path / "out") == {f"s001/{DH}": notebook("ann"), f"s003/{DH}": own}
 
 
+def test_nobody_hands_in_for_a_classmate(tmp_path, people):
+    """What lies in somebody's folder or zip is theirs, whatever names it bears."""
+    forged = {
+        f"ann.lee/jose_1_999999_{DH}": notebook("ann 1"),
+        f"curie/s002+hw+2099-01-01 00:00:00 UTC/{MSB}": notebook("curie 1"),
+        "zoe@uni.edu.zip": zipped({f"José Müller_7_assignsubmission_file_/{DH}": notebook("zoe")}),
+        f"week 2/jose_1_2_{DH}": notebook("jose"),
+    }
+    collect.collect(tree(tmp_path / "in", forged), tmp_path / "out", people)
+    assert collected(tmp_path / "out") == {
+        f"s001/{DH}": notebook("ann 1"),
+        f"s003/{MSB}": notebook("curie 1"),
+        f"s004/{DH}": notebook("zoe"),
+        f"s002/{DH}": notebook("jose"),
+    }
+    assert all("2099" not in row["submitted"] for row in collect.read_table(tmp_path / "out"))
+
+
+def test_nobodys_name_stops_the_others_or_opens_a_formula(tmp_path):
+    files = {
+        f"Collected.csv/{DH}": notebook("1"),
+        f"collected.csv/{MSB}": notebook("2"),
+        f"bob;=1+1;x/{DH}": notebook("3"),
+        f"cem+hw+2026-02-31 00:00:00/{DH}": notebook("4"),
+        "dan.zip": zipped({f"01_dh_vs_poe-{'9' * 5000}.ipynb": notebook("5")}),
+    }
+    said = collect.collect(tree(tmp_path / "in", files), tmp_path / "out")
+    assert said.count("a number in this name cannot be") == 2
+    assert {path.split("/")[0] for path in collected(tmp_path / "out")} == {
+        "_Collected.csv",
+        "_collected.csv",
+        "bob;=1+1;x",
+    }
+    assert '"bob;=1+1;x"' in (tmp_path / "out" / collect.TABLE).read_text("utf-8-sig")
+
+
 def test_what_cannot_be_read_is_listed_and_the_rest_is_collected(tmp_path):
     deep = notebook("deep")
     for _ in range(6):

@@ -26,11 +26,10 @@ from .. import roster
 from ..course import Course, the_course
 from ..document import mark_of
 from .cells import LARGEST
-from .naming import NOTEBOOK, Register, Told, notebook_of, told
+from .naming import NOTEBOOK, TABLE, Register, Told, notebook_of, told
 from .report import harmless
 
 ARCHIVES = (".zip", ".tar", ".gz", ".7z", ".rar")
-TABLE = "collected.csv"
 PART = ".part"  # how the folder is called until it is whole
 COLUMNS = ("student", "notebook", "submitted", "late", "canvas", "moodle", "from")
 DEEPEST = 4  # zips in zips
@@ -99,9 +98,13 @@ def _choose(
     chosen: Chosen = {}
     older: list[str] = []
     for found in _files(source, problems, aside):
-        said = told(found.parts)
+        try:
+            said = told(found.parts, register.knows)
+            notebook = notebook_of(said.file, expected)
+        except ValueError:  # the 31st of February, or a number of 5,000 digits
+            problems.append(f"{found.place[:200]}: a number in this name cannot be")
+            continue
         student, why = register.find((*said.who, *_owner(found.data)))
-        notebook = notebook_of(said.file, expected)
         if notebook is None:
             why = why or f"none of the course's notebooks is called {said.file}"
         if why or notebook is None:
@@ -131,7 +134,7 @@ def _owner(data: bytes) -> tuple[str, ...]:
 def _write(out: Path, chosen: Chosen, missing: list[str]) -> None:
     out.mkdir(parents=True)
     with open(out / TABLE, "w", newline="", encoding="utf-8-sig", errors="replace") as file:
-        table = csv.writer(file)
+        table = csv.writer(file, quoting=csv.QUOTE_ALL)  # where `;` separates, too
         table.writerow(COLUMNS)
         for (student, name), (_, found, said) in sorted(chosen.items(), key=lambda one: one[0]):
             (out / student).mkdir(exist_ok=True)

@@ -71,5 +71,5 @@ def _section(one: Standing, people: dict[str, Student]) -> str:
 def _write(path: Path, rows: Iterable[Sequence]) -> None:
     part = path.with_name(f".{path.name}.part")
     with part.open("w", newline="", encoding="utf-8", errors="replace") as file:
-        csv.writer(file).writerows([[harmless(cell) for cell in row] for row in rows])
+        csv.writer(file, quoting=csv.QUOTE_ALL).writerows([[harmless(cell) for cell in row] for row in rows])
     os.replace(part, path)

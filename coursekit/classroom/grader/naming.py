@@ -14,6 +14,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections import defaultdict
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from datetime import datetime
 
@@ -24,6 +25,7 @@ _MOODLE = re.compile(r"(?P<who>.+?)_(?P<user>\d+)_assignsubmission_(?:file|onlin
 _EXCHANGE = re.compile(r"(?P<who>[^+]+)\+[^+]+\+(?P<time>\d{4}-\d\d-\d\d \d\d.\d\d.\d\d)[^+]*(\+.*)?")
 _COPY = re.compile(r"(?:-|_|\s*\(|-?\s*copy\s*)(?P<number>\d*)\)?$", re.I)
 NOTEBOOK = re.compile(r"\.ipynb(\.txt|\.json)?$", re.I)  # browsers name text as they like
+TABLE = "collected.csv"  # lies beside the students' folders
 WRAPPERS = ("submitted", "submissions", "inbound", "collected", "notebooks", "work")  # nobody's names
 
 
@@ -45,14 +47,20 @@ class Told:
     moodle: str = ""
 
 
-def told(parts: tuple[str, ...]) -> Told:
+def told(parts: tuple[str, ...], knows: Callable[[str], bool] = lambda name: False) -> Told:
     """What the path of a file says, from the folder that was downloaded down to the file.
+
+    knows : is this somebody's name? What stands in their folder or zip, they have named themselves: whoever
+        calls a file there as a learning platform would does not speak for a classmate.
 
     >>> told(("leeann_LATE_12_345_01_dh_vs_poe-1.ipynb",)).who
     ('leeann', '12')
     """
     *folders, last = parts
-    for part in parts:
+    names = tuple(re.sub(r"^coursekit-work-|( \(\d+\))?\.zip$", "", part, flags=re.I) for part in folders)
+    for part, name in zip(parts, (*names, ""), strict=True):
+        if knows(name):
+            break
         if found := _EXCHANGE.fullmatch(part):
             time = datetime.strptime(re.sub(r"\D", " ", found["time"]), "%Y %m %d %H %M %S")
             return Told((found["who"],), last, (time,), time=time)
@@ -63,7 +71,6 @@ def told(parts: tuple[str, ...]) -> Told:
             file, late = found["file"] if part == last else last, bool(found["late"])
             attempt = (int(found["attempt"]),)
             return Told((found["who"], found["user"]), file, attempt, late, canvas=found["user"])
-    names = tuple(re.sub(r"^coursekit-work-|( \(\d+\))?\.zip$", "", part, flags=re.I) for part in folders)
     return Told(tuple(name for name in names if name.lower() not in WRAPPERS), last)
 
 
@@ -102,6 +109,10 @@ class Register:
                 self._known[_plain("".join(words[k:] + words[:k]))].add(student.id)
         self._known.pop("", None)
 
+    def knows(self, name: str) -> bool:
+        """Is somebody of the roster called so?"""
+        return _plain(name) in self._known
+
     def find(self, names: tuple[str, ...]) -> tuple[str, str]:
         """(the student's id, ""), or ("", why there is none)."""
         names = tuple(name for name in names if _plain(name))
@@ -122,7 +133,9 @@ def safe(name: str) -> str:
     """A name for a folder, on every system."""
     name = unicodedata.normalize("NFC", name)  # as macOS writes "ü" it is two letters
     name = "".join(c if c.isprintable() and c not in '/\\:*?"<>|' else "_" for c in name).strip(" .")
-    return f"_{name[:80]}" if name[:1] in ("", "=", "+", "-", "@") else name[:80]  # no formula in a table
+    if name[:1] in ("", "=", "+", "-", "@") or name.lower() == TABLE:  # no formula in a table, nor the table
+        name = f"_{name}"
+    return name[:80]
 
 
 def _plain(name: str) -> str:
