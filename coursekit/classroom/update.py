@@ -120,6 +120,8 @@ def _opened(new: Path, folder: Path) -> Iterator[Path]:
         places = [new, *(sub for sub in sorted(new.iterdir()) if sub.is_dir())]
         found = [place for place in places if (place / RELEASE).is_file()]
         found = [place for place in found if _student(place) == mine] or found
+        if not mine and len(found) > 1:
+            raise ValueError(f"{new} holds the releases of {len(found)} students: name the folder of your id")
         yield found[0] if found else new
 
 

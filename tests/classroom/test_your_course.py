@@ -564,6 +564,8 @@ def test_an_update_is_not_somebody_elses(in_class, folder, tmp_path):
     assert "nothing changed" in update.update(in_class, in_class / "s1")  # the folder of the whole class
     release.release(tmp_path / "everybody", read(folder))
     assert "without anybody's arm" in told(update.update, tmp_path / "everybody", in_class / "s1")
+    with pytest.raises(ValueError, match=r"holds the releases of \d students: name the folder of your id"):
+        update.update(in_class, tmp_path / "everybody")  # it took the arm of the first in the alphabet
     assert "nothing changed" not in update.update(in_class / "s1", tmp_path / "everybody")
     assert (tmp_path / "everybody" / own.FILE).is_file()
 
