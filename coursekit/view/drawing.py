@@ -39,13 +39,14 @@ class Arm(Drawing):
     """The handle of a robot: where it stands (`theta`), its looks, the paths of its links."""
 
     color: str | int = "ghost"  # of a ghost
-    columns: str = ""  # path of n arrows: how fast each joint moves the tool, which the page places, too
     goal: str = ""  # path of a frame that its tool is at: the page moves it along with that
     links: np.ndarray | None = None  # (n, 4, 4): where a ghost's links stand, if not where its joints say
 
     def __init__(self, scene: Scene, name: str, robot: Robot, style: str, source: str) -> None:
         super().__init__(scene, f"/ck/{name}")
         self.name, self.robot, self.style = name, robot, style
+        # path -> half of the Jacobian: the page, too, places its arrows or, with a scale, its ellipsoid
+        self.shapes: dict[str, tuple[str, float]] = {}
         self.source = source  # name of the robot whose painted parts it shows
 
     @property

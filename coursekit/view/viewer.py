@@ -128,7 +128,7 @@ class Viewer(Widget):
             return
         self.drive = {
             "path": arm.path,
-            "columns": arm.columns,
+            "shapes": arm.shapes,
             "name": arm.robot.name,
             **arm.screws(),
             "sliders": [slider and f"IPY_MODEL_{slider.model_id}" for slider in sliders],

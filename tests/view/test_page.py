@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from coursekit import Robot, ik, lie, robots, view
-from coursekit.view import prediction
+from coursekit import Robot, ik, jacobians, lie, robots, view
+from coursekit.view import marks, prediction
 from coursekit.view.explorers.jacobians import arrow_at
 from coursekit.view.script import STATIC
 
@@ -38,14 +38,15 @@ SLIDES = Robot.from_axes(
 )
 ARMS = [*robots.all().values(), SLIDES]
 COMPUTE = """
-import { arrowsOf, describe, displacements, product, reachFor } from "%s";
+import { describe, displacements, product, reachFor, shapesOf } from "%s";
 const cases = JSON.parse(await new Promise((done) => {
   let text = "";
   process.stdin.on("data", (part) => (text += part)).on("end", () => done(text));
 }));
-const answer = ({ name, screws, M, theta }) => {
-  const arm = { name, screws, M }, links = displacements(screws, theta);
-  return { links, arrows: arrowsOf(arm, links), tool: product(links.at(-1), M), words: describe(arm, theta) };
+const answer = ({ theta, ...arm }) => {
+  const links = displacements(arm.screws, theta);
+  const tool = product(links.at(-1), arm.M);
+  return { links, tool, shapes: shapesOf(arm, links), words: describe(arm, theta) };
 };
 console.log(JSON.stringify(cases.map(answer)));
 """
@@ -75,7 +76,8 @@ def computed():
     for robot in ARMS:
         for theta in (robot.home, np.zeros(robot.n), 1e-9 * np.ones(robot.n), rng.uniform(-7, 7, robot.n)):
             cases.append((robot, theta))
-    found = compute(COMPUTE, [{"name": robot.name, **told(robot, theta)} for robot, theta in cases])
+    more = {"shapes": {"/v": ("linear", 0), "/linear": ("linear", 0.3), "/angular": ("angular", 0.1)}}
+    found = compute(COMPUTE, [{"name": robot.name, **more, **told(robot, theta)} for robot, theta in cases])
     return list(zip(cases, found, strict=True))
 
 
@@ -87,12 +89,35 @@ def test_the_page_has_the_numbers_of_the_kernel(computed):
         np.testing.assert_allclose(tool, robot.fk(theta), rtol=0, atol=1e-12)
 
 
+def placed(found, path):
+    return np.reshape(found["shapes"][path], (4, 4)).T
+
+
 def test_the_page_places_the_arrows_of_the_columns_as_the_kernel_does(computed):
     for (robot, theta), found in computed:
-        arrows = np.reshape(found["arrows"], (-1, 4, 4)).transpose(0, 2, 1)
         tool = robot.fk(theta)[:3, 3]
-        expected = [arrow_at(v, tool) for v in robot.jacobian_geometric(theta)[3:].T]
-        np.testing.assert_allclose(arrows, expected, rtol=0, atol=1e-12)
+        for k, v in enumerate(robot.jacobian_geometric(theta)[3:].T, 1):
+            np.testing.assert_allclose(placed(found, f"/v/{k}"), arrow_at(v, tool), rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize(("part", "scale"), [("linear", 0.3), ("angular", 0.1)])
+def test_the_page_places_the_ellipsoids_as_the_kernel_does(computed, part, scale):
+    for (robot, theta), found in computed:
+        J, tool = robot.jacobian_geometric(theta), robot.fk(theta)[:3, 3]
+        e = jacobians.ellipsoid(J, part)
+        kernels = marks.ellipsoid(e.axes, scale * e.lengths, tool, "trace", 0.3, 0.002)
+        body, theirs = placed(found, f"/{part}/body"), kernels["body"][1]
+        np.testing.assert_allclose(body[:3, 3], tool, rtol=0, atol=1e-12)
+        assert np.linalg.det(body) > 0
+        # the same surface x = A u, |u| = 1, whatever the order and the sense of its half axes
+        np.testing.assert_allclose(body @ body.T, theirs @ theirs.T, rtol=0, atol=1e-12)
+        half = body[:3, :3]
+        np.testing.assert_allclose(half.T @ half, np.diag(np.diag(half.T @ half)), rtol=0, atol=1e-12)
+        for k in range(3):
+            rod = placed(found, f"/{part}/axis{k + 1}")[:3, :3]
+            np.testing.assert_array_equal(rod[:, 2], half[:, k])
+            np.testing.assert_allclose(rod[:, :2].T @ rod[:, :2], np.eye(2), rtol=0, atol=1e-12)
+            assert np.linalg.det(rod) > 0
 
 
 def test_the_page_says_it_in_the_words_of_the_kernel(computed):
@@ -136,11 +161,11 @@ def test_what_moves_with_the_arm_is_a_link_or_said_to_be_computed(explorer):
         panel.refresh()
         before = drawn()
         told = panel.viewer.drive
-        placed = [told["columns"] and f"{told['columns']}/{k}" for k in range(1, len(told["screws"]) + 1)]
         for slider in sliders:
             slider.show(slider.get() + 0.1)
         after = drawn()
-        moved = {key.split("#")[0] for key in after if before.get(key) != after[key]} - set(placed)
+        moved = {key.split("#")[0] for key in after if before.get(key) != after[key]}
+        moved = {path for path in moved if not path.startswith(tuple(told["shapes"]))}  # by the page, too
         assert all(path.startswith(tuple(panel.computed or ["none"])) for path in moved)
         assert bool(moved) == bool(set(panel.computed) - {prediction.ROOT})  # nothing is asked now
     finally:

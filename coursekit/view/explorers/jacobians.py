@@ -24,6 +24,7 @@ STEPS = 50
 SCALE = {"linear": 0.3, "angular": 0.1}  # on a stage of 1 m
 UNIT = {"linear": "m/s", "angular": "rad/s"}
 COLOR = {"linear": "trace", "angular": "axis"}
+COLUMNS = "/ck/columns"
 ASIDE = (0.48, 0.6, 0.64)  # where the x axis of an arrow leans: no joint moves the tool just there
 CAPTION = (
     "How far the joints turn in each step towards {d}: Newton (circles) leaps where the arm is nearly "
@@ -73,7 +74,6 @@ class _Jacobians(yours.Jacobians, Explorer):
     """The ellipsoids of the arm as it stands; Newton and damped least squares from there to the target."""
 
     name, title, opener = "jacobians", "Explorer of Jacobian methods", "explore_jacobians"
-    computed = ("/ck/linear", "/ck/angular")
 
     def __init__(self, robot, poses, mine):
         super().__init__(mine, robot)
@@ -95,10 +95,11 @@ class _Jacobians(yours.Jacobians, Explorer):
         self.goal = self.scene.frame("/ck/target", self.target, letter="d", size=0.14 * self.scene.size)
         # metres drawn for 1 m/s and for 1 rad/s; rounded, so that the text is exact
         self.scale = {part: round(scale * self.scene.size, 2) for part, scale in SCALE.items()}
-        self.arm.columns, size = "/ck/columns", self.scale["linear"]
+        self.arm.shapes = {f"/ck/{part}": (part, scale) for part, scale in self.scale.items()}
+        self.arm.shapes[COLUMNS], size = ("linear", 0), self.scale["linear"]
         for k in range(1, robot.n + 1):  # arrows of one shape that are placed and stretched
             look = pointing.COLOR, f"v{k}", 0.03 * size
-            pointing.mean(self.scene.arrow(f"/ck/columns/{k}", np.zeros(3), [0, 0, size], *look), f"J{k}")
+            pointing.mean(self.scene.arrow(f"{COLUMNS}/{k}", np.zeros(3), [0, 0, size], *look), f"J{k}")
 
     def start_at(self, theta):
         super().start_at(theta)
@@ -147,7 +148,7 @@ class _Jacobians(yours.Jacobians, Explorer):
             e = jacobians.ellipsoid(J, part)
             self.scene.ellipsoid(f"/ck/{part}", e.axes, scale * e.lengths, tool, COLOR[part])
         for k, v in enumerate(J[3:].T, 1):
-            self.scene[f"{self.arm.columns}/{k}"].move(arrow_at(v, tool))
+            self.scene[f"{COLUMNS}/{k}"].move(arrow_at(v, tool))
 
     def formula(self, values):
         """The columns of the Jacobian: what each joint does to the tool, which is what is asked."""

@@ -60,8 +60,7 @@ async function receiveBundle(data) {
   shared.busy = true;
   const reasons = [];
   const source = await gunzip(data).catch((error) => reasons.push(`gunzip: ${error.message}`) && null);
-  for (const evaluate of waysToEvaluate) {
-    if (source === null) break;
+  for (const evaluate of source === null ? [] : waysToEvaluate) {
     try {
       const MeshCat = await evaluate(source);
       if (!MeshCat || !MeshCat.Viewer) throw new Error("no Viewer in it");

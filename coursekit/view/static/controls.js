@@ -133,8 +133,7 @@ function buildSlider(model, el) {
     const jump = { ArrowUp: 1, ArrowDown: -1, Escape: 0 }[event.key];
     if (jump === undefined) return;
     box.ckEdited = false;
-    if (jump) stepBy(jump, event);
-    else draw();
+    return jump ? stepBy(jump, event) : draw();
   });
   name.title = "double click: reset";
   name.addEventListener("dblclick", () => send(model.get("start"), false));

@@ -28,8 +28,7 @@ function makeFollower(model, moved) {
     const { per } = model.get("drive"), known = model.get("theta"), held = hand("theta", sliders);
     return sliders.map((slider, k) => (slider ? (held ? held[k] : slider.get("value")) / per[k] : known[k]));
   };
-  const again = () => (ready = listen());
-  model.on("change:drive", again);
+  const deafen = listenTo(model, { drive: () => (ready = listen()) });
   let ready = listen();
   return {
     ready: () => ready, // the sliders are known
@@ -42,11 +41,11 @@ function makeFollower(model, moved) {
       const known = model.get("theta");
       if (ahead && theta().every((q, k) => Math.abs(q - known[k]) < 1e-9)) ahead = false;
     },
-    // paths of the links, and of the arrows that go along; 16 numbers for each
+    // paths of the links, and of what shows the Jacobian; 16 numbers for each
     pose() {
-      const arm = model.get("drive"), D = displacements(arm.screws, theta()), arrows = arm.columns ? arrowsOf(arm, D) : [];
-      const below = (path, all) => all.map((_, k) => [...splitPath(path), String(k + 1)]);
-      return [[...below(arm.path, D), ...below(arm.columns, arrows)], new Float64Array([D, arrows].flat(2))];
+      const arm = model.get("drive"), D = displacements(arm.screws, theta());
+      const all = { ...Object.fromEntries(D.map((T, k) => [`${arm.path}/${k + 1}`, T])), ...shapesOf(arm, D) };
+      return [Object.keys(all).map(splitPath), new Float64Array(Object.values(all).flat())];
     },
     // the sliders go where a motion is, in pages where no kernel puts them there
     put(values) {
@@ -55,7 +54,7 @@ function makeFollower(model, moved) {
     end() {
       over = true;
       forget();
-      model.off("change:drive", again);
+      deafen();
     },
   };
 }

@@ -214,8 +214,7 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, mo
   };
   const slid = () => puts || moved();
   const hear = (how) => targets.forEach(({ sliders }) => sliders.forEach((slider) => slider[how]("change:value", slid)));
-  model.on("change:handles", listen);
-  model.on("change:drive", listen);
+  const deafen = listenTo(model, { handles: listen, drive: listen });
   listen();
 
   // --- a link of the arm turns its joint
@@ -289,8 +288,7 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, mo
       over = true;
       hear("off");
       clearTimeout(rests);
-      model.off("change:handles", listen);
-      model.off("change:drive", listen);
+      deafen();
     },
   };
 }

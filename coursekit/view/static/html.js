@@ -25,6 +25,12 @@ function keepDrawn(model, names, draw) {
   draw();
 }
 
+// Act when these change, until what it gives is called.
+function listenTo(model, acts) {
+  for (const [name, act] of Object.entries(acts)) model.on(`change:${name}`, act);
+  return () => Object.entries(acts).forEach(([name, act]) => model.off(`change:${name}`, act));
+}
+
 // The word that was pointed at last, of those that still are: by the mouse, by the focus.
 function latestWord() {
   const told = new Map();

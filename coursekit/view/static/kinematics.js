@@ -1,10 +1,7 @@
 // Kinematics in the page: where the links of an arm stand, from its screws. The same numbers as Robot.displacements in
 // Python; so an arm follows its sliders in the next frame, also where no kernel runs.
 
-/**
- * e^[S]q of a screw S = (w; v), |w| = 1 or w = 0: 16 numbers, column by column, as three.js keeps a matrix.
- * @param {number[]} S @param {number} q radians, or metres where w = 0
- */
+/** e^[S]q of a screw S = (w; v), |w| = 1 or w = 0: 16 numbers, by columns as in three.js. @param {number[]} S @param {number} q radians, or metres where w = 0 */
 export function exponential([wx, wy, wz, vx, vy, vz], q) {
   const s = Math.sin(q), half = Math.sin(q / 2), c = 2 * half * half; // c = 1 - cos q, exact for small q, too
   if (!wx && !wy && !wz) return [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, vx * q, vy * q, vz * q, 1];
@@ -35,10 +32,7 @@ export function displacements(screws, theta) {
   return screws.map((S, k) => (T = T ? product(T, exponential(S, theta[k])) : exponential(S, theta[k])));
 }
 
-/**
- * A line in words, as Scene.text in Python says it, for pages where no kernel does.
- * @param {{name: string, screws: number[][], M: number[]}} arm @param {number[]} theta
- */
+/** What Scene.text says in Python, for pages where no kernel does. @param {{name: string, screws: number[][], M: number[]}} arm @param {number[]} theta */
 export function describe({ name, screws, M }, theta) {
   const slides = screws.map(([wx, wy, wz]) => !wx && !wy && !wz);
   const round = (x) => { // as Python rounds: a tie goes to the even digit
@@ -108,7 +102,7 @@ export function reachFor({ screws, M }, theta, goal, ends = screws.map(() => [-I
 }
 
 // A direction as T turns it; null turns nothing.
-const turned = (T, [x, y, z]) => (T ? [0, 1, 2].map((i) => T[i] * x + T[4 + i] * y + T[8 + i] * z) : [x, y, z]);
+const turned = (T, a) => (T ? [0, 1, 2].map((i) => T[i] * a[0] + T[4 + i] * a[1] + T[8 + i] * a[2]) : a);
 const crossed = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 
 /** How fast a point p goes when a joint moves, whose screw S the joints before carried by T (null: by nothing). */
@@ -117,15 +111,34 @@ export function velocityOf(T, S, p) {
   return crossed(turned(T, S.slice(0, 3)), from).map((x, i) => x + v[i]);
 }
 
-/** Where the arrows of J's columns stand, as arrow_at in Python. @param {{screws: number[][], M: number[]}} arm @param {number[][]} D displacements */
-export function arrowsOf({ screws, M }, D) {
-  const tool = product(D.at(-1), M).slice(12, 15);
-  return screws.map((S, k) => {
-    const v = velocityOf(k ? D[k - 1] : null, S, tool), speed = Math.hypot(...v), long = Math.max(speed, 1e-6);
-    const z = speed > 1e-6 ? v.map((x) => x / speed) : [0, 0, 1], y = crossed(z, [0.48, 0.6, 0.64]);
-    const wide = Math.sqrt(long) / Math.hypot(...y), scaled = (axis, by) => [...axis.map((x) => x * by), 0];
-    return [...scaled(crossed(y, z), wide), ...scaled(y, wide), ...scaled(z, long), ...tool, 1];
-  });
+/**
+ * What shows a Jacobian at the tool, as arrow_at and marks.ellipsoid in Python place it: path -> 16 numbers. D: displacements
+ * @param {{screws: number[][], M: number[], shapes: Object<string, [string, number]>}} arm path -> half of J, scale of its ellipsoid or 0
+ */
+export function shapesOf({ screws, M, shapes }, D) {
+  const tool = product(D.at(-1), M).slice(12, 15), before = (k) => (k ? D[k - 1] : null);
+  const J = { linear: screws.map((S, k) => velocityOf(before(k), S, tool)), angular: screws.map((S, k) => turned(before(k), S.slice(0, 3))) };
+  return Object.assign({}, ...Object.entries(shapes).map(([path, [half, scale]]) => (
+    scale ? ellipsoid(path, J[half], scale, tool) : Object.fromEntries(J[half].map((v, k) => [`${path}/${k + 1}`, arrow(v, tool)])))));
+}
+
+const times = (v, by) => v.map((x) => x * by);
+const matrix = (x, y, z, p) => [...x, 0, ...y, 0, ...z, 0, ...p, 1];
+function arrow(v, tool) {
+  const speed = Math.hypot(...v), long = Math.max(speed, 1e-6);
+  const z = speed > 1e-6 ? times(v, 1 / speed) : [0, 0, 1], y = crossed(z, [0.48, 0.6, 0.64]), wide = Math.sqrt(long) / Math.hypot(...y);
+  return matrix(times(crossed(y, z), wide), times(y, wide), times(z, long), tool);
+}
+function ellipsoid(path, columns, scale, tool) {
+  const U = [[1, 0, 0], [0, 1, 0], [0, 0, 1]], J = U.map((_, i) => columns.map((column) => column[i]));
+  const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0), mixed = (a, x, b, y) => a.map((one, i) => x * one + y * b[i]);
+  for (let turn = 0; turn < 24; turn += 1) { // until the rows of U J stand upright on each other (Jacobi): they are the half axes
+    const [i, j] = [[0, 1], [0, 2], [1, 2]][turn % 3], angle = Math.atan2(2 * dot(J[i], J[j]), dot(J[i], J[i]) - dot(J[j], J[j])) / 2;
+    for (const A of [U, J]) [A[i], A[j]] = [mixed(A[i], Math.cos(angle), A[j], Math.sin(angle)), mixed(A[j], Math.cos(angle), A[i], -Math.sin(angle))];
+  }
+  const long = J.map((row) => scale * Math.hypot(...row)), half = U.map((axis, k) => times(axis, Math.max(long[k], 1e-3 * Math.max(...long, 1e-9))));
+  const rod = (k) => [`${path}/axis${k + 1}`, matrix(U[(k + 1) % 3], U[(k + 2) % 3], half[k], tool)];
+  return { [`${path}/body`]: matrix(half[0], half[1], half[2], tool), ...Object.fromEntries([0, 1, 2].map(rod)) };
 }
 
 // x of A x = b, where A is symmetric and positive definite: no pivot has to be looked for.

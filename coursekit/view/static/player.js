@@ -78,9 +78,7 @@ function makePlayer({ show, report, wake }) {
       setPlaying(true);
     },
     // another view of the same model, or the kernel, shows frame k
-    follow(k) {
-      if (motion && !playing && k !== frame) follow(k);
-    },
+    follow: (k) => motion && !playing && k !== frame && follow(k),
     step,
     toggle: () => motion && play.click(),
     // Once per animation frame. Shows every pose as long as it is less than a second late; then it keeps up with time.

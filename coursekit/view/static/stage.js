@@ -86,8 +86,7 @@ function canvasRenderer(MeshCat) {
     setPixelRatio(value) { ratio = value; },
     setSize(w, h) {
       [width, height] = [w, h];
-      canvas.style.width = `${w}px`;
-      canvas.style.height = `${h}px`;
+      Object.assign(canvas.style, { width: `${w}px`, height: `${h}px` });
     },
     // When the graphics process has drawn what `render` told it to. Copying before would wait for it, and the page with it.
     async drawn() {
@@ -153,12 +152,8 @@ function quietViewer(MeshCat, pane, renderer) {
 
 function release(object) {
   object.traverse((part) => {
-    if (part.geometry) part.geometry.dispose();
-    if (part.shadow) part.shadow.dispose();
-    for (const material of [].concat(part.material || [])) {
-      if (material.map) material.map.dispose();
-      material.dispose();
-    }
+    const materials = [].concat(part.material || []);
+    for (const held of [part.geometry, part.shadow, ...materials.map(({ map }) => map), ...materials]) held?.dispose();
   });
 }
 

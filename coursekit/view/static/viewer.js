@@ -130,13 +130,12 @@ function makeViewer() {
         });
         stage.moved();
       };
-      let slid = false;
+      let slid = false, late = null;
       const follower = makeFollower(model, () => {
         player.load(null); // a hand on a slider ends a motion
         slid = true;
         stage.moved();
       });
-      let late = null;
       const handles = makeHandles(MeshCat.THREE, viewer, pane, stage.renderer, model, follower, {
         taken(what, isGuess) {
           if (!isGuess) player.load(null);
@@ -227,13 +226,12 @@ function makeViewer() {
       onMotion(waits ? null : Math.max(0, model.get("frame")));
       views.add(view);
 
-      const changes = { pose: onPose, theta: onPose, moving: onPose, frame: onPose, labels: onLabels, ghosts: onGhosts, camera: onCamera, description: onText,
-        heard: () => follower.isAhead() && onPose(), motion: () => onMotion(null), height: () => (box.style.height = `${model.get("height")}px`) };
-      for (const [name, act] of Object.entries(changes)) model.on(`change:${name}`, act);
+      const deafen = listenTo(model, { pose: onPose, theta: onPose, moving: onPose, frame: onPose, labels: onLabels, ghosts: onGhosts, camera: onCamera, description: onText,
+        heard: () => follower.isAhead() && onPose(), motion: () => onMotion(null), height: () => (box.style.height = `${model.get("height")}px`) });
       box.coursekit = { stage, viewer, player, follower, handles, page: page() }; // for the browser's console and the tests
 
       return () => { // the notebook keeps `el` and `model` of what is long gone: nothing may hang on them
-        for (const [name, act] of Object.entries(changes)) model.off(`change:${name}`, act);
+        deafen();
         unwatch();
         follower.end();
         handles.end();
@@ -342,14 +340,12 @@ function showPicture(model, pane, buttons, views, player, error) {
   };
   const onMotion = () => player.load(model.get("motion"));
   views.add(view);
-  model.on("change:pose", ask);
-  model.on("change:motion", onMotion);
+  const deafen = listenTo(model, { pose: ask, motion: onMotion });
   onMotion();
   ask();
   return () => {
     clearTimeout(timer);
-    model.off("change:pose", ask);
-    model.off("change:motion", onMotion);
+    deafen();
     views.delete(view);
   };
 }
@@ -370,8 +366,7 @@ function watchKernel(model, line) {
     timer = null;
     line.textContent = "";
   };
-  model.on("change:answers", answered);
-  model.on("change:dragged", asked);
+  const deafen = listenTo(model, { answers: answered, dragged: asked });
   childModels(model, model.get("controls") || []).then((controls) => {
     if (over) return;
     for (const control of controls) control.on("change:touched", asked);
@@ -381,8 +376,7 @@ function watchKernel(model, line) {
     over = true;
     answered();
     forget();
-    model.off("change:answers", answered);
-    model.off("change:dragged", asked);
+    deafen();
   };
 }
 
