@@ -165,6 +165,25 @@ def test_words_fill_the_room_under_the_controls(opened):
     assert heights and max(heights) < 25, "every vector stands on one line"
 
 
+def test_fewer_words_pull_nothing_up_before_they_rest(opened):
+    height = """() => {
+        const words = document.querySelector(".ck-control .ck-text"), heights = [words.offsetHeight];
+        window.heights = heights;
+        new MutationObserver(() => heights.push(words.offsetHeight)).observe(words, { childList: true });
+    }"""
+    opened.page.evaluate(height)
+    said = [opened.words() + 5 * "\na line more", "a line"]
+    opened.kernel(f"line.__setattr__('value', {said[0]!r})")
+    opened.kernel(f"line.__setattr__('value', {said[1]!r})")
+    opened.page.wait_for_function("() => window.heights.length === 3")
+    before, more, fewer = opened.page.evaluate("() => window.heights")
+    assert before < more == fewer
+    opened.page.wait_for_function(
+        "(most) => document.querySelector('.ck-control .ck-text').offsetHeight < most", arg=before
+    )
+    opened.kernel("refresh()")
+
+
 def test_everything_that_can_be_pressed_is_large_enough(opened):
     assert opened.page.evaluate(SMALL) == 0
 

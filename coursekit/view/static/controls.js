@@ -176,10 +176,14 @@ function text(model, el) {
   const spoken = element("div", { class: "ck-spoken", role: "status", "aria-live": "polite" }, model.get("value"));
   let timer = null;
   const draw = () => {
+    shown.style.minHeight = `${shown.offsetHeight}px`; // what is below goes up when they rest, not while a slider moves
     const parts = model.get("value").split(/(\([^()]*\))/); // a vector is not broken where it fits on a line
     shown.replaceChildren(...parts.map((part, i) => (i % 2 ? element("span", { class: "ck-whole" }, part) : part)));
     clearTimeout(timer);
-    timer = setTimeout(() => (spoken.textContent = model.get("value")), 600);
+    timer = setTimeout(() => {
+      spoken.textContent = model.get("value");
+      shown.style.minHeight = "";
+    }, 600);
   };
   el.append(shown, spoken);
   keepDrawn(model, ["value"], draw);

@@ -48,9 +48,7 @@ function makeFollower(model, moved) {
       return [Object.keys(all).map(splitPath), new Float64Array(Object.values(all).flat())];
     },
     // the sliders go where a motion is, in pages where no kernel puts them there
-    put(values) {
-      sliders.forEach((slider, k) => slider && slider.set("value", values[k] * model.get("drive").per[k]));
-    },
+    put: (values) => sliders.forEach((slider, k) => slider && slider.set("value", values[k] * model.get("drive").per[k])),
     end() {
       over = true;
       forget();

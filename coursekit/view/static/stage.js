@@ -262,9 +262,7 @@ function makeStage(MeshCat, pane, quality) {
     viewer.render();
     stage.moved();
   };
-  stage.wake = () => {
-    if (!request && !dead) request = requestAnimationFrame(draw);
-  };
+  stage.wake = () => (request ||= dead ? 0 : requestAnimationFrame(draw));
   stage.now = () => draw(performance.now()); // and not in the browser's next frame
   viewer.set_dirty = function () {
     this.needs_render = true;
