@@ -308,9 +308,9 @@ sys.setrecursionlimit(60)
 )
 
 
-@kind(FULL, note="was handed out to <b>x</b>")
+@kind(FULL, note="was handed out to <b>?x</b>")
 def marks_that_lie(notebook):
-    mark = {"student": "<b>x</b>", "version": {"a": "9" * 5000}, "cells": 3}
+    mark = {"student": "<b>\u202ex</b>", "version": {"a": "9" * 5000}, "cells": 3}
     return {**notebook, "metadata": {"coursekit": mark}}
 
 

@@ -57,7 +57,7 @@ def test_links_folders_and_pipes_are_not_followed_and_nobody_is_forgotten(tmp_pa
     (tmp_path / "in" / "link" / NAME).symlink_to(classmate)
     (tmp_path / "in" / "folder" / NAME).mkdir()
     os.mkfifo(tmp_path / "in" / "pipe" / NAME)
-    shutil.copy(classmate, tmp_path / "in" / "otherwise named" / "arm (1).ipynb")
+    shutil.copy(classmate, tmp_path / "in" / "otherwise named" / "arm (1)\u202e.ipynb")
     (tmp_path / "in" / "alias").symlink_to(tmp_path / "in" / "ann")
     (tmp_path / "in" / "notes.txt").write_text("not a student")
     summary = grade_small(tmp_path / "in", tmp_path / "out")
@@ -68,7 +68,7 @@ def test_links_folders_and_pipes_are_not_followed_and_nobody_is_forgotten(tmp_pa
     assert {row["points"] for row in table.values()} == {"0"}
     assert "link" in table["link"]["notes"] and "link" in table["alias"]["notes"]
     assert "nothing handed in" in table["missing"]["notes"]
-    assert "under the name 01_arm.ipynb (found: arm (1).ipynb)" in table["otherwise named"]["notes"]
+    assert "under the name 01_arm.ipynb (found: arm (1)?.ipynb)" in table["otherwise named"]["notes"]
 
 
 @needs_box
@@ -104,7 +104,7 @@ def test_odd_folders_and_files_neither_end_the_run_nor_count_as_students(tmp_pat
     assert (tmp_path / "in" / "out" / "grades.csv").read_bytes().startswith(b"\xef\xbb\xbf")
 
 
-def test_files_without_folders_are_refused_with_what_to_do(tmp_path):
+def test_what_cannot_be_graded_is_refused_with_what_to_do(tmp_path, monkeypatch):
     (tmp_path / "in").mkdir()
     (tmp_path / "in" / "ann_123_456_01_arm.ipynb").write_text("{}")
     with pytest.raises(ValueError, match="coursekit collect"):
@@ -112,6 +112,10 @@ def test_files_without_folders_are_refused_with_what_to_do(tmp_path):
     for wrong in ({"jobs": 0}, {"seed": -1}):
         with pytest.raises(ValueError, match=r"--jobs is 1 or more, --seed 0 or more; (0|-1) came"):
             grade_small(tmp_path / "in", tmp_path / "out", box=False, **wrong)
+    monkeypatch.setattr(grade, "bubblewrap", lambda: "bwrap")
+    monkeypatch.setattr(box, "_visible", lambda: ["/usr", str(tmp_path.parent.resolve())])
+    with pytest.raises(ValueError, match=f"{tmp_path / 'in'} lies where students' code can read"):
+        grade_small(tmp_path / "in", tmp_path / "out")
     with pytest.raises(ValueError, match="where the submissions are"):
         grade_small(tmp_path / "in", tmp_path / "in", box=False)
 
@@ -167,13 +171,19 @@ def test_in_the_box_a_course_below_tmp_is_seen(tmp_path, monkeypatch):
     """The box has a /tmp of its own, which must not hide a Python that lies in the real one."""
     (tmp_path / "python").write_text("is here")
     (tmp_path / "library").mkdir()
+    (tmp_path / "course").mkdir()
+    (tmp_path / "course" / "solution").write_text("is hidden")
     visible = box._visible()
-    monkeypatch.setattr(box, "_visible", lambda: [*visible, str(tmp_path / "python")])
+    monkeypatch.setattr(
+        box, "_visible", lambda: [*visible, *map(str, (tmp_path / "python", tmp_path / "course"))]
+    )
+    monkeypatch.setattr(box, "ROOT", tmp_path / "course")
 
     (tmp_path / "library" / "runner.py").write_text((INSIDE / "runner.py").read_text())
     one = box.Box(tmp_path / "library", box.Limits(), bubblewrap())
     try:
-        cell = f"def said():\n    return len(open({str(tmp_path / 'python')!r}).read())"
+        cell = f"import os\n\ndef said():\n    assert not os.listdir({str(tmp_path / 'course')!r})\n"
+        cell += f"    return len(open({str(tmp_path / 'python')!r}).read())"
         assert "error" not in one.ask({"run": cell, "name": "<cell>"}, 20)
         found = one.ask({"ask": "said", "calls": [[]], "several": 0, "arguments": []}, 20)
         before = box.used(one._process.pid)

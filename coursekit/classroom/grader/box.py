@@ -26,6 +26,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from ..course import ROOT
 from .syscalls import refused
 
 GRACE = 2.0  # seconds for the box to say itself that its time is over
@@ -306,8 +307,11 @@ def _command(
         box += ["--size", str(limits.home), "--tmpfs", folder]
     for path in _visible():
         box += ["--ro-bind", path, path]
-    for path in _other_packages():  # of another Python, or installed beside the course: not for students
-        box += ["--tmpfs", path, "--remount-ro", path]
+    hidden = [*_other_packages(), *([str(ROOT)] if seen(ROOT) else [])]
+    for path in hidden:  # packages of another Python, or installed beside the course; a course below /usr
+        box += ["--tmpfs", path]
+    for path in (f"{sys.prefix}/bin", f"{sys.prefix}/pyvenv.cfg"):
+        box += ["--ro-bind-try", path, path]
     for package in _packages():
         box += ["--ro-bind", str(package), f"{PACKAGES}/{package.name}"]
     for name, value in environment.items():
@@ -317,7 +321,9 @@ def _command(
             break
         box += ["--ro-bind", str(fonts), f"{home}/.matplotlib/{fonts.name}"]
     box += ["--ro-bind", str(library), str(library), "--dir", home, "--chdir", home]
-    return [*box, "--remount-ro", "/", "--remount-ro", "/dev", *python]
+    for path in (*hidden, "/dev", "/"):
+        box += ["--remount-ro", path]
+    return [*box, *python]
 
 
 _OF_THE_HOST = ("/proc/sys", "/proc/sysrq-trigger", "/proc/irq", "/proc/bus", "/proc/fs", "/proc/acpi")
@@ -332,9 +338,8 @@ PACKAGES = "/packages"  # where they lie in the box
 def _visible() -> list[str]:
     """What a Python needs, and nothing of the course (whose environment may keep JupyterLab's tokens)."""
     system = ["/usr", "/bin", "/lib", "/lib64", "/etc/ld.so.cache", "/etc/fonts"]
-    own = [f"{sys.prefix}/bin", f"{sys.prefix}/pyvenv.cfg"]
     python = [f"{sys.base_prefix}/{part}" for part in ("bin", "lib", "lib64")]
-    return [path for path in dict.fromkeys([*system, *own, *python]) if os.path.exists(path)]
+    return [path for path in dict.fromkeys([*system, *python]) if os.path.exists(path)]
 
 
 @cache
@@ -355,6 +360,12 @@ def _other_packages() -> list[str]:
     roots = {f"{prefix}/lib" for prefix in (sys.base_prefix, "/usr", "/usr/local")}
     found = [path for root in roots for path in Path(root).glob("python3*/*-packages")]
     return sorted(map(str, found))
+
+
+def seen(path: Path) -> bool:
+    """Does this lie where students' code can read, and not among the installed packages?"""
+    path = path.resolve()
+    return any(map(path.is_relative_to, _visible())) and not any(map(path.is_relative_to, _other_packages()))
 
 
 def _font_lists() -> list[Path]:

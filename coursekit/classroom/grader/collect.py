@@ -26,7 +26,7 @@ from .. import roster
 from ..course import Course, the_course
 from ..document import mark_of
 from .cells import LARGEST
-from .naming import NOTEBOOK, TABLE, Register, Told, notebook_of, told
+from .naming import NOTEBOOK, TABLE, Register, Told, notebook_of, printable, told
 from .report import harmless
 
 ARCHIVES = (".zip", ".tar", ".gz", ".7z", ".rar")
@@ -161,13 +161,8 @@ def _summary(
         ("older, left out", older),
     ):
         if rows:
-            lines += [f"{title} ({len(rows)}):", *(f"    {_plain(row)}" for row in sorted(rows))]
+            lines += [f"{title} ({len(rows)}):", *(f"    {printable(row)}" for row in sorted(rows))]
     return "\n".join(lines)
-
-
-def _plain(text: str) -> str:
-    """A name of a file may otherwise tell a terminal to wipe what is on it."""
-    return "".join(c if c.isprintable() else "?" for c in text)
 
 
 # ---- files, in folders and in zips

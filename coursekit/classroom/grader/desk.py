@@ -13,6 +13,7 @@ from .box import as_root
 from .decisions import Decisions
 from .journal import Journal
 from .marks import Standing, standing
+from .naming import printable
 from .submissions import Submissions
 
 EVERY = 30.0  # seconds between two tables while the grading goes on
@@ -57,7 +58,7 @@ class Desk:
             gradebooks.write_moodle(
                 self.out / "moodle.csv", class_, self.people, self.handed_in.platform("moodle")
             )
-        return "\n".join(self._told(class_))
+        return "\n".join(map(printable, self._told(class_)))
 
     def _class(self) -> Iterator[Standing]:
         for student in self.handed_in.students:

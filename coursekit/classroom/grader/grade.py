@@ -24,9 +24,9 @@ import numpy as np
 
 from .. import roster
 from ..author import notebook
-from ..course import Course, the_course
+from ..course import ROOT, Course, the_course
 from . import decisions, pool, worker
-from .box import Limits, bubblewrap
+from .box import Limits, bubblewrap, seen
 from .clinic import SEARCHED
 from .desk import Desk
 from .journal import Journal, seed_of
@@ -88,6 +88,11 @@ def grade_class(
             "students' code runs in bubblewrap, which does not work here (Debian: apt install bubblewrap). "
             "--no-box grades without it: that code can then do whatever you can"
         )
+    for place in (course.notebooks, submissions, out):
+        if box and seen(place) and not place.resolve().is_relative_to(ROOT):  # the course itself is hidden
+            raise ValueError(
+                f"{place} lies where students' code can read: put it elsewhere, into your home, say"
+            )
     units = [unit for unit in course.units if course.exercises(unit)]
     limits = limits or Limits()
     out.mkdir(parents=True, exist_ok=True)

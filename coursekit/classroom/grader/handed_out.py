@@ -7,6 +7,7 @@ import json
 from .. import own
 from ..course import Course
 from ..document import mark_of, newer
+from .naming import printable
 
 
 def handed_out(data: bytes, student: str, course: Course) -> tuple[int, list[str]]:
@@ -20,9 +21,9 @@ def handed_out(data: bytes, student: str, course: Course) -> tuple[int, list[str
     whose = mark.get("student", "")
     if newer(mark.get("version", ""), course.version):
         notes.append(
-            f"the notebook is of version {str(mark['version'])[:20]}, newer than this course "
+            f"the notebook is of version {printable(str(mark['version'])[:20])}, newer than this course "
             f"({course.version}): grade with that version"
         )
     if whose and whose != student:
-        notes.append(f"the notebook was handed out to {str(whose)[:60]}")
+        notes.append(f"the notebook was handed out to {printable(str(whose)[:60])}")
     return own.seed_of(student) if whose else own.NOBODY, notes

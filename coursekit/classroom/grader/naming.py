@@ -138,6 +138,11 @@ def safe(name: str) -> str:
     return name[:80]
 
 
+def printable(text: str) -> str:
+    """On one line: a name may otherwise wipe what is on a terminal, or turn the letters of a page around."""
+    return "".join(c if c.isprintable() else "?" for c in text)
+
+
 def _plain(name: str) -> str:
     """Letters and digits only, without case and accents: 'Müller, Ann' is 'mullerann'."""
     letters = unicodedata.normalize("NFKD", name.casefold())

@@ -13,6 +13,7 @@ from pathlib import Path
 from . import collect
 from .cells import LARGEST
 from .collect import ARCHIVES
+from .naming import printable
 
 
 class Submissions:
@@ -45,7 +46,7 @@ class Submissions:
                 note = links.get(student / name) or _copy(
                     student, name, self._path(student.name, unit), set(names.values())
                 )
-                self._notes[student.name, unit] = note
+                self._notes[student.name, unit] = printable(note)
                 self._times[student.name, unit] = _time(student / name), False
         for student_name in sorted(set(others) - self._numbers.keys()):
             self._numbers[student_name] = len(self._numbers)
