@@ -536,6 +536,56 @@ fk_kind("a_name_of_a_megabyte", NO_FK, "raise type('E' * 10**6, (Exception,), {}
 fk_kind("an_array_that_is_everywhere", NO_FK, "return np.broadcast_to(0.0, (10**6, 10**6))", "numbers")
 fk_kind("an_error_without_text", NO_FK, "raise E", before="class E(Exception):\n    __str__ = None")
 
+fk_kind(
+    "an_array_of_another_class",
+    FULL,
+    "return memoryview(np.ma.array(right(theta, l1, l2).view(Mine), mask=[True, False]).data)",
+    before="class Mine(np.ndarray):\n    pass",
+)
+fk_kind("numbers_one_by_one", NO_FK, "yield from right(theta, l1, l2)", "dtype object")
+fk_kind(
+    "an_array_at_a_forbidden_address",
+    NO_FK,
+    "return Memory()",
+    "died",
+    """
+class Memory:
+    __array_interface__ = {"shape": (2,), "typestr": "<f8", "data": (8, True), "version": 3}
+""",
+)
+fk_kind(
+    "knows_where_it_is",
+    NO_FK,
+    """
+import os, socket
+if socket.gethostname() == "box" or os.path.exists("/packages"):
+    os._exit(0)
+return right(theta, l1, l2)
+""",
+    "died",
+)
+KINDS["a_partial_function"] = Kind(
+    lambda nb: with_fk(
+        nb, 'import functools\n\nif __name__ == "__main__":\n    fk = functools.partial(right)'
+    ),
+    FULL,
+)
+
+
+@kind(FULL)
+def ids_twice_in_an_unknown_format(notebook):
+    notebook = copy.deepcopy(notebook)
+    for cell in notebook["cells"]:
+        cell["id"], cell["metadata"] = "same", {"nbgrader": {"grade_id": "fk"}}
+    return {**notebook, "nbformat": 9, "nbformat_minor": -1, "metadata": None}
+
+
+@kind(FULL)
+def cells_twice(notebook):
+    """The last of two keys counts, as for JupyterLab."""
+    return f'{{"cells": [], "cells": {json.dumps(notebook["cells"])}}}'.encode()
+
+
 # ---- looking elsewhere
 
 fk_kind(
