@@ -173,10 +173,10 @@ def test_nobodys_name_stops_the_others_or_opens_a_formula(tmp_path):
         f"collected.csv/{MSB}": notebook("2"),
         f"bob;=1+1;x/{DH}": notebook("3"),
         f"cem+hw+2026-02-31 00:00:00/{DH}": notebook("4"),
-        "dan.zip": zipped({f"01_dh_vs_poe-{'9' * 5000}.ipynb": notebook("5")}),
+        "dan.zip": zipped({f"01_dh_vs_poe{' ' * 60_000}x.ipynb": notebook("5")}),
     }
     said = collect.collect(tree(tmp_path / "in", files), tmp_path / "out")
-    assert said.count("a number in this name cannot be") == 2
+    assert said.count("a number in this name cannot be") == said.count("could hold this name") == 1
     assert {path.split("/")[0] for path in collected(tmp_path / "out")} == {
         "_Collected.csv",
         "_collected.csv",

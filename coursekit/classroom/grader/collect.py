@@ -33,6 +33,7 @@ ARCHIVES = (".zip", ".tar", ".gz", ".7z", ".rar")
 PART = ".part"  # how the folder is called until it is whole
 COLUMNS = ("student", "notebook", "submitted", "late", "canvas", "moodle", "from")
 DEEPEST = 4  # zips in zips
+LONGEST = 255  # letters of a file's name; to read longer ones takes hours
 LARGEST_ARCHIVE = 500_000_000  # bytes of a zip in a zip
 MOST = 200_000  # files
 UNPACKED = 200_000_000  # bytes that somebody's zip may hold, all zips in it too, beside 20 times its own
@@ -101,8 +102,8 @@ def _choose(
         try:
             said = told(found.parts, register.knows)
             notebook = notebook_of(said.file, expected)
-        except ValueError:  # the 31st of February, or a number of 5,000 digits
-            problems.append(f"{found.place[:200]}: a number in this name cannot be")
+        except ValueError:  # the 31st of February
+            problems.append(f"{found.place}: a number in this name cannot be")
             continue
         student, why = register.find((*said.who, *_owner(found.data)))
         if notebook is None:
@@ -240,6 +241,9 @@ def _in_zip(
             for info in infos:
                 inner = tuple(part for part in _name(info).split("/") if part not in ("", ".", ".."))
                 if info.is_dir() or not inner or _is_nobodys(inner):
+                    continue
+                if len(max(inner, key=len)) > LONGEST:
+                    problems.append(f"{'/'.join(parts + inner)[:LONGEST]}...: no folder could hold this name")
                     continue
                 if not _is_wanted(inner[-1]):
                     yield Found(parts + inner, b"", datetime.min)
