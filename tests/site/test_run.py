@@ -6,6 +6,7 @@ import json
 import shutil
 import zipfile
 
+import numpy as np
 import pytest
 
 from coursekit.classroom.author import notebook
@@ -25,6 +26,10 @@ READY = """() => window.jupyterapp.shell.currentWidget
 FILES = """async () => {
   const { content } = await window.jupyterapp.serviceManager.contents.get("", { content: true });
   return content.map((entry) => entry.name);
+}"""
+KEPT = """async () => {
+  const cache = await caches.open("coursekit-run");
+  return (await cache.keys()).map((request) => decodeURIComponent(request.url));
 }"""
 WATCH = """addEventListener("DOMContentLoaded", () => {
   const node = document.getElementById("said");
@@ -308,9 +313,14 @@ def test_started_from_a_folder_it_says_what_is_missing(browser, run):
     context.close()
 
 
-def test_the_page_that_loads_says_how_far_it_is(browser, run, served):
+@pytest.mark.parametrize("slow", [False, True])
+def test_the_page_that_loads_says_how_far_it_is(browser, run, served, slow):
     with Student(browser, served.url) as visit:
-        said = []
+        said, before = [], served.server.sent
+        if slow:  # to a page whose clock runs faster the line is a slow one
+            visit.page.add_init_script(
+                "const now = performance.now.bind(performance);performance.now = () => 30 * now();"
+            )
         visit.page.expose_function("heard", lambda text: said.append(text))  # Playwright takes no builtin
         visit.page.add_init_script(WATCH)
         # Firefox asks the reader whether to keep the store, and the reader may never answer
@@ -320,6 +330,13 @@ def test_the_page_that_loads_says_how_far_it_is(browser, run, served):
         shares = [float(text.split("(")[1].split(" %")[0]) for text in said if "%" in text]
         assert shares == sorted(shares)
         assert shares[0] < 50 and shares[-1] == 100
+        listed = json.loads((run / "files.json").read_text(encoding="utf-8"))
+        first = {f"{served.url}/run/{name}?sum={listed['files'][name]['sum']}" for name in listed["first"]}
+        assert first <= set(visit.page.evaluate(KEPT))
+        size = sum(listed["files"][name]["size"] for name in listed["first"])
+        assert size < served.server.sent - before < 1.5 * size, "each file is loaded once"
+        if slow:
+            assert max(np.diff(shares)) < 10, "a large file is told part by part"
 
 
 @pytest.fixture(scope="module")

@@ -1,6 +1,7 @@
 // Loads Python and JupyterLab into this browser's store, says how far it is, and opens the notebook.
 (() => {
   const CACHE = "coursekit-run";
+  const OFTEN = 250, SLOW = 3000; // ms: before the reader is told again how far it is; and when a line is a slow one
   const byId = (id) => document.getElementById(id);
   const say = (text) => { byId("said").textContent = text; };
   const megabytes = (bytes) => (bytes / 1e6).toFixed(1);
@@ -23,31 +24,44 @@
   async function load({ first, files }) {
     const cache = await caches.open(CACHE);
     const here = new URL(".", location.href);
+    const key = (name) => `${here}${name}?sum=${files[name].sum}`;
     const total = first.reduce((sum, name) => sum + files[name].size, 0);
-    const missing = [];
-    let loaded = 0;
+    const missing = [], begun = performance.now();
+    let loaded = 0, shown = 0;
     const show = () => {
+      shown = performance.now();
       byId("bar").value = loaded / total;
       say(`${megabytes(loaded)} of ${megabytes(total)} MB (${Math.round((100 * loaded) / total)} %) are here`);
     };
+    const look = () => performance.now() - shown > OFTEN && show();
     for (const name of first) {
-      const kept = await cache.match(`${here}${name}?sum=${files[name].sum}`);
+      const kept = await cache.match(key(name));
       if (kept) loaded += files[name].size;
       else missing.push(name);
     }
     show();
+    const counted = (answer) => {
+      const count = new TransformStream({
+        transform(part, on) {
+          loaded += part.length;
+          look();
+          on.enqueue(part);
+        },
+      });
+      return new Response(answer.body.pipeThrough(count), answer);
+    };
     const one = async () => {
       for (let name = missing.shift(); name; name = missing.shift()) {
-        const answer = await fetch(name);
+        const answer = await fetch(name, { cache: "no-cache", headers: { "Coursekit-Keeps": "page" } }); // and not the worker
         if (!answer.ok) throw new Error(`${name}: ${answer.status} ${answer.statusText}`);
-        const reader = answer.body.getReader();
-        for (let part = await reader.read(); !part.done; part = await reader.read()) {
-          loaded += part.value.length;
-          show();
-        }
+        const isSlow = performance.now() - begun > SLOW; // if not, to look at each part would take as long as to load it
+        await cache.put(key(name), isSlow ? counted(answer) : answer);
+        if (!isSlow) loaded += files[name].size;
+        look();
       }
     };
     await Promise.all([one(), one(), one(), one()]);
+    show();
   }
 
   async function start() {
