@@ -160,7 +160,7 @@ JOINTS = (
     Edge("for a slide at zero", _at_zero("prismatic")),
     Edge("for a slide whose offset d is zero", _joint("prismatic", d=0.0)),
     Edge("for a hinge whose offset is zero", _joint("revolute", theta=0.0)),
-    Edge("for whole numbers", lambda rng: (np.array([1, 2, -1, 3]), 2, "prismatic")),
+    Edge("for whole numbers", lambda rng: (np.array([1, 2, -1, 3]), 0.5, "prismatic")),
 )
 
 

@@ -158,7 +158,9 @@ def _kr6(rng):
 
 
 def _whole_screws(rng):
-    return np.array([[0, 0, 1], [0, 1, 0], [1, 0, 0], [0, -2, 0], [0, 0, 1], [0, 1, 0]]), WHOLE
+    """S of whole numbers, of which a copy would cut off the decimals that M brings."""
+    S = np.array([[0, 0, 1], [0, 1, 0], [1, 0, 0], [0, -2, 0], [0, 0, 1], [0, 1, 0]])
+    return S, _at(WHOLE[:3, :3], [0.5, -0.25, 1.5])
 
 
 ARMS = (
@@ -345,7 +347,8 @@ EXERCISES = [
             Hint("inverse", "that is the adjoint of the inverse: it maps from frame a to frame b"),
             Hint("minus_p", "[p] has its signs the wrong way round: [p] y must be p x y, for any y"),
             Hint(
-                "rows_crossed", "np.cross(p, R) crosses p with the rows of R; [p] R does it with the columns"
+                "rows_crossed",
+                "[p] R crosses p with the columns of R; yours with the rows",
             ),
             Hint("no_p", "the lower left block is zero only where p is zero"),
             Hint("no_R", "the lower left block is [p] R: yours is [p] alone"),
