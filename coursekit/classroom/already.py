@@ -7,19 +7,23 @@ import numpy as np
 from .exercise import JACOBIAN, POSE, Block, Exercise
 from .transforms import entries
 
+SHORT = 30  # words of a sentence that is read at once
 
-def what_is_right(exercise: Exercise, examples: list, answers: list, good: list[bool]) -> str:
-    """'' or a sentence that holds on all examples. `good`: which of them are right as a whole."""
+
+def what_is_right(exercise: Exercise, examples: list, answers: list, good: list[bool]) -> list[str]:
+    """Sentences that hold on all examples. `good`: which of them are right as a whole."""
     masks = [e.masks(parts) for e, parts in zip(examples, answers, strict=True)]
     everywhere = _blocks(exercise, masks) or _lines(exercise, masks) or _entries(exercise, masks)
     cases = _cases(examples, good)
     if cases and not everywhere:
         wrong = [m for m, fine in zip(masks, good, strict=True) if not fine]
         there = _blocks(exercise, wrong) or _lines(exercise, wrong) or _entries(exercise, wrong)
-        return f"{cases}; there {there}" if there else cases
-    if everywhere and cases:
-        return f"{everywhere}. It is {cases}"
-    return everywhere or cases
+        both = f"{cases}; there {there}"
+        return [both] if there and len(both.split()) <= SHORT else [cases, there and f"there {there}"]
+    both = f"{everywhere}. It is {cases}"
+    if cases and len(both.split()) <= SHORT:
+        return [both]
+    return [everywhere, cases and f"it is {cases}"]
 
 
 def not_a_pose(matrix: np.ndarray) -> str:
@@ -42,8 +46,11 @@ def not_a_pose(matrix: np.ndarray) -> str:
 # ---- parts of the answer that are right on all examples
 
 
-def _default(exercise: Exercise) -> tuple[Block, ...]:
+def blocks_of(exercise: Exercise) -> tuple[Block, ...]:
+    """The parts of its answer that have a name."""
     shape = exercise.shapes[0]
+    if exercise.blocks:
+        return exercise.blocks
     if exercise.several:
         return tuple(Block(f"result {i + 1}", ..., i) for i in range(len(exercise.shapes)))
     if shape[-2:] == (4, 4):
@@ -52,8 +59,8 @@ def _default(exercise: Exercise) -> tuple[Block, ...]:
 
 
 def _blocks(exercise: Exercise, masks: list) -> str:
-    blocks = exercise.blocks or _default(exercise)
-    fine = [all(_taken(m[b.part], b).all() for m in masks) for b in blocks]
+    blocks = blocks_of(exercise)
+    fine = [all(taken(m[b.part], b).all() for m in masks) for b in blocks]
     good = [b for b, f in zip(blocks, fine, strict=True) if f]
     bad = [b for b, f in zip(blocks, fine, strict=True) if not f]
     good = [b for b in good if b.text != "the last row"]  # nobody is proud of that
@@ -68,7 +75,8 @@ def _blocks(exercise: Exercise, masks: list) -> str:
     return f"{_said(good)} right; not so {_joined([b.text for b in bad])}"
 
 
-def _taken(mask: np.ndarray, block: Block) -> np.ndarray:
+def taken(mask: np.ndarray, block: Block) -> np.ndarray:
+    """What a mask says of a block; false where there is no such place."""
     try:
         return np.asarray(mask[block.index])
     except IndexError:
@@ -142,6 +150,8 @@ def _entries(exercise: Exercise, masks: list) -> str:
     wrong = ~np.all([m[0] for m in masks], axis=0)
     if wrong.shape == (4, 4) and not wrong[3].any():
         wrong = wrong[:3]  # the last row of a pose is right in any case
+    if wrong.shape == (4, 4) and wrong[:3].all():  # nor is a part of it worth a word
+        return ""
     if not 0 < np.count_nonzero(wrong) < wrong.size:
         return ""
     if np.count_nonzero(wrong) <= wrong.size / 2:

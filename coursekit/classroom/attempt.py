@@ -205,7 +205,7 @@ def _explain(exercise: Exercise, function: Callable, error: Exception, arguments
     plain = in_plain_words(said)
     if plain:  # which says the rest
         said = re.split(r"\. Use|, and the inputs", re.sub(r"Input operand .*\((.*)\)$", r"\1", said))[0]
-    said = shorten(said, 100 if plain else 200, placeholder=" ...")
+    said = shorten(said, 60 if plain else 200, placeholder=" ...")
     text = f"{type(error).__name__}: {said}"
     frame, at = _place(error)
     if frame is None:
@@ -262,12 +262,18 @@ def _variables(frame: FrameType, at: int) -> str:
     made_last = " ".join(reversed(re.split(r"(?<![=<>!])=(?!=)", line, maxsplit=1)))
     named = re.findall(r"[A-Za-z_]\w*", made_last)  # what the line uses tells more than what it was to make
     names = [n for n in dict.fromkeys(named) if n in here] if named else list(here)
-    return ", ".join(_brief(name, here[name]) for name in names[:SHOWN])
+    shown = {name: here[name] for name in names[:SHOWN]}
+    arrays = [name for name, value in shown.items() if isinstance(value, np.ndarray) and value.ndim]
+    told = [_brief(name, value) for name, value in shown.items() if name not in arrays]
+    shapes = ", ".join(f"{name} {shown[name].shape}" for name in arrays)
+    if len(arrays) == 1:
+        told.append(f"{arrays[0]} has shape {shown[arrays[0]].shape}")
+    elif arrays:
+        told.append(f"shapes {shapes}" if told else f"the shapes are {shapes}")
+    return ", ".join(told)
 
 
 def _brief(name: str, value: Any) -> str:
-    if isinstance(value, np.ndarray) and value.ndim:
-        return f"{name} has shape {value.shape}"
     if isinstance(value, list | tuple):
         return f"{name} has {len(value)} entries"
     if isinstance(value, bool | np.bool_):

@@ -293,6 +293,8 @@ def _placed(found: Verdict, exercise: Exercise, function, examples, good, attemp
     place = _repaired(exercise, function, examples, good, attempts)
     if not place:
         return found
+    if found.say.startswith(("your decimals", "your numbers are rounded")):  # which says what, but not where
+        place = place.partition(":")[0]
     return replace(found, say=f"{found.say}; {place}", mended=place.removeprefix("look at "))
 
 
@@ -308,10 +310,11 @@ def _repaired(exercise: Exercise, function, examples, good, attempts) -> str:
 
 def _already_and_residual(exercise, examples, answers, good, function) -> tuple[str, ...]:
     several = "any_solution" in exercise.kinds  # entries of one right answer need not be those of another
-    told = [] if several else [what_is_right(exercise, examples, answers, good)]
+    first, *further = [""] if several else what_is_right(exercise, examples, answers, good)
+    told = [first]
     if function is not None:
         told += [_residual(exercise, examples, answers, good)]
-    told += [_law(exercise, examples, answers, good, function)]
+    told += [_law(exercise, examples, answers, good, function), *further]
     return tuple(text for text in told if text)
 
 
