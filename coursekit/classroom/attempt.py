@@ -205,7 +205,7 @@ def _explain(exercise: Exercise, function: Callable, error: Exception, arguments
     plain = in_plain_words(said)
     if plain:  # which says the rest
         said = re.split(r"\. Use|, and the inputs", re.sub(r"Input operand .*\((.*)\)$", r"\1", said))[0]
-    said = shorten(said, 60 if plain else 200, placeholder=" ...")
+    said = shorten(said, 80 if plain else 200, placeholder=" ...")
     text = f"{type(error).__name__}: {said}"
     frame, at = _place(error)
     if frame is None:

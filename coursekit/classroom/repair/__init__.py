@@ -3,7 +3,8 @@
 The function is tried with single edits, one after the other, the likely ones first, until a fixed number of
 executed lines is used up: the same code gets the same sentence on every machine. What is told is the line and
 the kind of the edit. The edit itself is never shown. Where one of two lines would do, both are told; nothing
-is told of more of them.
+is told of more of them. Then the student's own functions that it calls are searched in the same way, and then
+two edits at once (`two`).
 """
 
 from __future__ import annotations
@@ -20,12 +21,14 @@ from typing import Any
 import numpy as np
 
 from .. import compare
+from ..course import course_here
 from ..exercise import Exercise, Misfit, answer, misshapen, thaw
 from . import places
-from .lines import line_edits, name_edits
+from .lines import LineEdit, line_edits, name_edits
 from .places import LOCALS, PROBE, Place, Variant
 from .sandbox import TICKS, Sandbox, Stop, Unfit
 from .texts import sentence
+from .two import two_edits
 
 BUDGET = 600_000  # executed lines, of the student's and of what they call
 ONE = 10_000  # of them in a single trial, whose loop may not end any more
@@ -38,6 +41,8 @@ class _Hit:
     line: int
     kind: str
     what: str
+    edit: LineEdit | tuple[list[Place], int] | None = None  # or places, and which of their variants
+    gain: float = 1.0  # of `two`: how much more of the answers is right with it
 
 
 def repair(exercise: Exercise, function: Callable, examples: list, cost: int) -> str:
@@ -54,16 +59,33 @@ def repair(exercise: Exercise, function: Callable, examples: list, cost: int) ->
             search = _Search(exercise, function, examples, max(cost, 12))
         except Unfit:
             return ""
-        hits = search.hits()
-    if not hits:
-        return ""
+        if hits := search.hits():
+            return _told(search, hits)
+        return _in_a_helper(search) or two_edits(search)
+
+
+def _in_a_helper(search: _Search) -> str:
+    """The same of the student's own functions that it calls; exercises among them are known to be right."""
+    course, found = course_here(), []
+    for name in [name for name in search.box.trees if not course.has(name)]:
+        search.turn_to(name)
+        search.left = BUDGET // search.cost
+        if hits := search.hits():
+            found.append(_told(search, hits, f" of `{name}`"))
+    search.turn_to(search.box.whole)
+    return found[0] if len(found) == 1 else ""
+
+
+def _told(search: _Search, hits: list[_Hit], owner: str = "") -> str:
     best = min(hit.rank for hit in hits)
     hits = [hit for hit in hits if hit.rank == best]
+    below = [hit for hit in hits if not hit.line or hit.line - search.first + 1 >= search.body]
+    hits = below or hits  # what is done to an argument is done wherever it is used: that place says more
     lines = sorted({hit.line - search.first + 1 if hit.line else 0 for hit in hits})
     if len(lines) > 2 or (lines[-1] - lines[0] > 1 and lines[0] < search.body):
         return ""  # it could be here or there
     kinds = [(hit.kind, hit.what) for hit in sorted(hits, key=lambda hit: hit.line)]
-    return sentence(kinds, lines, search.body)
+    return sentence(kinds, lines, search.body, owner)
 
 
 class _Search:
@@ -72,17 +94,24 @@ class _Search:
     )
 
     def __init__(self, exercise: Exercise, function: Callable, examples: list, cost: int) -> None:
-        self.exercise, self.examples, self.left = exercise, examples, max(1, BUDGET // cost)
+        self.exercise, self.examples, self.cost = exercise, examples, cost
+        self.left = max(1, BUDGET // cost)
         self.end = time.process_time() + SECONDS
         self.box = Sandbox(function)
         rounds = [self._rounds(self.box.compile(), example) for example in examples]
         self.box.most = min(TICKS, max(2 * max(rounds), ONE * max(rounds[0], 1) // cost))
-        self.tree = self.box.tree
-        self.first = self.tree.lineno
-        self.body = self.tree.body[0].lineno - self.first + 1  # 1 where all stands in the line of the `def`
+        self.turn_to(self.box.whole)
+        self.judge: Callable[[Callable], float] = self._right
+        self.fixed: list[tuple[Place, Variant]] = []  # edits that stand while others are tried
         self.chosen: dict[int, Variant] = {}
         self.ordinary: dict[int, Callable] = {}
         self.box.names[PROBE], self.box.names[LOCALS] = self._probe, locals
+
+    def turn_to(self, name: str) -> None:
+        """Edits are tried in this function from now on: the student's own, or one that it calls."""
+        self.tree = self.box.turn_to(name)
+        self.first = self.tree.lineno
+        self.body = self.tree.body[0].lineno - self.first + 1  # 1 where all stands in the line of the `def`
 
     def _rounds(self, function: Callable, example) -> int:
         """How many rounds of loops the function itself takes."""
@@ -131,13 +160,14 @@ class _Search:
         for edit in list(edits(self.tree)):
             back = edit.put()
             try:
-                good = self._right(self.box.compile())
+                with self._probed([]):
+                    good = self.judge(self.box.compile())
             except (SyntaxError, ValueError, TypeError):
                 good = False
             finally:
                 back()
             rank = 0 if edits is line_edits else 1
-            yield _Hit(rank, edit.line, edit.kind, edit.what) if good else None
+            yield _Hit(rank, edit.line, edit.kind, edit.what, edit, good) if good else None
 
     def _places(self, every: list[Place], rank: int) -> Iterator[_Hit | None]:
         for place in every:
@@ -165,7 +195,7 @@ class _Search:
 
     def _arguments(self) -> Iterator[_Hit | None]:
         """An argument that comes in another form than the code thinks."""
-        for name in self.exercise.arguments:
+        for name in self.exercise.arguments if self.box.name == self.box.whole else ():
             line = ast.Assign([ast.Name(name, ast.Store())], ast.Name(name, ast.Load()))
             places.located(line, self.tree)
             self.tree.body.insert(0, line)
@@ -179,44 +209,60 @@ class _Search:
         self, group: list[Place], variants: Iterable[Variant], rank: int, line: int
     ) -> Iterator[_Hit | None]:
         """Compile once with probes in these places; then every variant, at all of them."""
-        inner_first = list(enumerate(group))[::-1]  # a place may stand inside another
-        back = [place.put(key) for key, place in inner_first]
+        if any(place is other for place in group for other, _ in self.fixed):
+            return
         try:
-            function = self.box.compile()
+            with self._probed(group) as mine:
+                function = self.box.compile()
         except (SyntaxError, ValueError, TypeError):
             return
-        finally:
-            for undo in reversed(back):
-                undo()
-        self.ordinary = {key: place.ordinary for key, place in enumerate(group)}
-        index = {id(v): k for k, v in enumerate(group[0].variants)}
+        index, before = {id(v): k for k, v in enumerate(group[0].variants)}, self.chosen
         for variant in variants:
             k = index[id(variant)]
-            self.chosen = {key: place.variants[k] for key, place in enumerate(group)}
+            self.chosen = before | {key: place.variants[k] for key, place in mine}
             kind = variant.kind if len(group) == 1 else f"every_{variant.kind}"
             what = variant.what or (places.likeness(group[0].node) if len(group) > 1 else "")
-            good = self._right(function)
+            good = self.judge(function)
             if good and self.sure and variant.unless is not None:
-                self.chosen = {key: replace(v, value=v.unless or v.value) for key, v in self.chosen.items()}
-                good = not self._right(function)
-            yield _Hit(rank, line, kind, what) if good else None
+                self.chosen |= {key: replace(v, value=v.unless or v.value) for key, v in self.chosen.items()}
+                good = good if self.judge(function) < good else False
+            yield _Hit(rank, line, kind, what, (group, k), good) if good else None
             if self._over():
                 break
 
+    @contextlib.contextmanager
+    def _probed(self, group: list[Place]) -> Iterator[list[tuple[int, Place]]]:
+        """Probes in these places and in those of the edits that stand; yields keys of the former."""
+        standing = {id(place): variant for place, variant in self.fixed}
+        every = sorted([*group, *(place for place, _ in self.fixed)], key=lambda place: place.number)
+        self.ordinary = {key: place.ordinary for key, place in enumerate(every)}
+        self.chosen = {key: standing[id(p)] for key, p in enumerate(every) if id(p) in standing}
+        back = [place.put(key) for key, place in list(enumerate(every))[::-1]]  # one may stand inside another
+        try:
+            yield [(key, place) for key, place in enumerate(every) if id(place) not in standing]
+        finally:
+            for undo in reversed(back):
+                undo()
+
     # ---- is it right now?
+
+    def answer(self, function: Callable, example) -> list | None:
+        """What an edited function answers, None where that is no answer."""
+        self.left -= 1
+        self.box.ticks = 0
+        given = thaw(example.arguments)
+        try:
+            value = answer(self.exercise, function(*given))
+        except (Misfit, Exception, Stop):
+            return None
+        if misshapen(self.exercise, value) or not _untouched(given, example.arguments):
+            return None
+        return value
 
     def _right(self, function: Callable) -> bool:
         for example in self.examples:
-            self.left -= 1
-            self.box.ticks = 0
-            given = thaw(example.arguments)
-            try:
-                value = answer(self.exercise, function(*given))
-            except (Misfit, Exception, Stop):
-                return False
-            if misshapen(self.exercise, value) or not example.agrees(value):
-                return False
-            if not _untouched(given, example.arguments):
+            value = self.answer(function, example)
+            if value is None or not example.agrees(value):
                 return False
         return True
 

@@ -92,12 +92,14 @@ def _edits_of_update(node: ast.AugAssign, function: ast.FunctionDef) -> Iterator
     for new in INSTEAD.get(type(node.op), ()):
         kind = "sign" if {type(node.op), new} == {ast.Add, ast.Sub} else "operator"
         yield LineEdit(kind, node.lineno, _set(node, "op", new()))
+    anew = located(ast.Assign([node.target], node.value), node)
     target = copy.deepcopy(node.target)
     target.ctx = ast.Load()
     for parent in ast.walk(function):
         body = getattr(parent, "body", None)
         if isinstance(body, list) and node in body:
             i = body.index(node)
+            yield LineEdit("grows", node.lineno, _replace(body, i, [anew]), ast.unparse(node.target))
             commutes = isinstance(node.op, ast.Add | ast.Mult)  # then the other order only makes a new array
             orders = [] if commutes else [("order", node.value, target)]
             for kind, left, right in (*orders, ("in_place", target, node.value)):

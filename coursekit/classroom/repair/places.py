@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
+from .brackets import fraction
 from .sandbox import TICK
-from .variants import INDEXERS, MAKERS, SIZES, Variant, called, fraction, whole
+from .variants import INDEXERS, MAKERS, SIZES, Variant, called, whole
 from .wraps import wraps
 
 PROBE, LOCALS = "__probe", "__locals"
@@ -29,6 +30,7 @@ class Place:
     pieces: Callable[[], list[ast.expr]]
     ordinary: Callable[[tuple, dict], Any]
     variants: tuple[Variant, ...]
+    number: int = 0  # in source order, what is outside before what is inside
 
     def put(self, key: int) -> Callable[[], None]:
         """Put probe number `key` in the node's place; returns what takes it back."""
@@ -53,8 +55,8 @@ class Place:
 def places(function: ast.FunctionDef) -> Iterator[Place]:
     """Every expression of the function's body that something else could stand for, in source order."""
     variables = list(dict.fromkeys(_variables(function)))
-    for parent, field, at, node in _expressions(function):
-        place = _place(parent, field, at, node, variables)
+    for number, (parent, field, at, node) in enumerate(list(_expressions(function))):
+        place = replace(_place(parent, field, at, node, variables), number=number)
         if place.variants:
             yield place
 

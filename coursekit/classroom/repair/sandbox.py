@@ -48,18 +48,28 @@ class Sandbox:
     def __init__(self, function: Callable) -> None:
         self.ticks, self.most = 0, TICKS
         self.names: dict[str, Any] = {TICK: self._tick, "print": lambda *a, **k: None, "__name__": "trial"}
-        self.tree = self._copy(function)
-        self.name = self.tree.name
-        self.defaults = getattr(function, "__defaults__", None)
+        self.trees: dict[str, tuple[ast.FunctionDef, tuple | None]] = {}  # of the functions that it calls
+        tree = self._copy(function)
+        self.whole = self.name = tree.name
+        self.trees[self.whole] = tree, getattr(function, "__defaults__", None)
+        self.compile()
+
+    def turn_to(self, name: str) -> ast.FunctionDef:
+        """The tree of the function, or of one that it calls: that one may be edited from now on."""
+        self.compile()  # of the last one, as it was
+        self.name = name
+        return self.trees[name][0]
 
     def compile(self) -> FunctionType:
-        """The function as its tree stands now."""
-        module = ast.Module([self.tree], [])
-        code = compile(module, "<trial>", "exec")
-        inner = next(c for c in code.co_consts if isinstance(c, CodeType) and c.co_name == self.name)
-        function = FunctionType(inner, self.names, self.name, self.defaults)
-        self.names[self.name] = function  # it may call itself
-        return function
+        """The function as the tree stands now that may be edited."""
+        tree, defaults = self.trees[self.name]
+        self.names[self.name] = self._made(tree, self.name, defaults)  # it may call itself
+        return self.names[self.whole]
+
+    def _made(self, tree: ast.FunctionDef, name: str, defaults: tuple | None) -> FunctionType:
+        code = compile(ast.Module([tree], []), "<trial>", "exec")
+        inner = next(c for c in code.co_consts if isinstance(c, CodeType) and c.co_name == tree.name)
+        return FunctionType(inner, self.names, name, defaults)
 
     def _tick(self) -> None:
         self.ticks += 1
@@ -123,9 +133,8 @@ class Sandbox:
         """One of the student's own functions, with counted loops and without a way into the notebook."""
         self.names[name] = None  # so that functions that call each other come to an end
         tree = self._copy(function)
-        code = compile(ast.Module([tree], []), "<trial>", "exec")
-        inner = next(c for c in code.co_consts if isinstance(c, CodeType) and c.co_name == tree.name)
-        return FunctionType(inner, self.names, name, function.__defaults__)
+        self.trees[name] = tree, function.__defaults__
+        return self._made(tree, name, function.__defaults__)
 
 
 def _is_errstate(item: ast.withitem) -> bool:

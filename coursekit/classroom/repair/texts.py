@@ -9,6 +9,8 @@ TEXTS = {
     "products": "an operator between two things",
     "order": "the order of two factors or terms",
     "brackets": "the brackets: what is divided by what",
+    "sum": "brackets around a sum are missing",
+    "grows": "`{}` adds up what should be new in each round",
     "extra": "a factor or a term too many",
     "arguments": "the order of the arguments of `{}`",
     "function": "`{}`: another function is needed there",
@@ -54,19 +56,20 @@ EVERY = {
     "operator": "every `{}`: another operator is needed",
     "products": "every `{}`: another operator is needed",
     "order": "the order of the factors at every `{}`",
-    "index": "the order of the two indices, everywhere",
+    "index": "every `{}`: another index or slice is needed",
     "brackets": "the brackets in every fraction: what is divided by what",
     "call": "every `{}`: a call too many",
-    "number": "the number {}, everywhere",
-    "name": "`{}`, everywhere: another variable belongs there",
+    "number": "every {}: another number is needed",
+    "name": "every `{}`: another variable belongs there",
     "missing": "`{}` is missing at several places",
 }
 
 
-def sentence(kinds: list[tuple[str, str]], lines: list[int], body: int = 2) -> str:
+def sentence(kinds: list[tuple[str, str]], lines: list[int], body: int = 2, owner: str = "") -> str:
     """ "look at line 4: a sign", from the kinds of all edits that would do, and their lines.
 
     body: the line in which it begins.
+    owner: " of `skew`", where it is not the function of the exercise.
     '' where neither a line nor a kind can be told.
     """
     where, what = _lines(lines, body), _what(kinds)
@@ -74,8 +77,10 @@ def sentence(kinds: list[tuple[str, str]], lines: list[int], body: int = 2) -> s
         return ""
     if what == TEXTS["somewhere"] and lines[-1] - lines[0] > 1:
         return ""
+    if not where and not lines[-1] and what.startswith("every "):
+        return f"look at {what}"
     elsewhere = "the arguments" if lines[-1] else "several lines at once"
-    return f"look at {where or elsewhere}: {what}"
+    return f"look at {where or elsewhere}{owner}: {what}"
 
 
 def _lines(lines: list[int], body: int) -> str:

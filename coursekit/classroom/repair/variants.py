@@ -11,11 +11,12 @@ import itertools
 import math
 import operator
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
+from .brackets import fraction, sum_without_brackets
 from .indices import changes, index_value
 
 
@@ -139,6 +140,8 @@ def _binary(node: ast.BinOp, variables: list[str]) -> Made:
         variants.append(Variant("operator", _apply(np.linalg.matrix_power), rank=0))
     variants.append(Variant("extra", lambda p, _: p[0]))
     variants.append(Variant("extra", lambda p, _: p[1]))
+    if kind in (ast.Add, ast.Sub) and (sum_ := sum_without_brackets(node, _OPERATORS)):
+        return sum_[0], lambda p, _: compute(p[0], p[1]), [*variants, Variant("sum", sum_[1], rank=0)]
     parts = fraction(node)
     if len(parts) > 2:  # x / 2 * a: the whole product was meant to stand below the line
         variants = [v for v in variants if v.kind != "operator"]  # x / 2 / a is the same
@@ -146,17 +149,6 @@ def _binary(node: ast.BinOp, variables: list[str]) -> Made:
         variants.append(Variant("brackets", lambda p, _: p[2] / math.prod(p[3:]), rank=0))
         return (lambda: [node.left, node.right, *parts[: below + 1]]), _apply(compute), variants
     return (lambda: [node.left, node.right]), _apply(compute), variants
-
-
-def fraction(node: ast.expr) -> list[ast.expr]:
-    """[x, a, b, c] of x / a * b * c, [] of anything else."""
-    factors: list[ast.expr] = []
-    while isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
-        factors.insert(0, node.right)
-        node = node.left
-    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div):
-        return [node.left, node.right, *factors]
-    return []
 
 
 def _apply(compute: Callable) -> Callable:
@@ -202,7 +194,8 @@ def _constant(node: ast.Constant, variables: list[str]) -> Made:
     else:
         new += [1000 * v, *([1e-12] if 0 < v < 0.1 else [])]  # a tolerance that was too large
     distinct = [x for k, x in enumerate(new) if x != v and x not in new[:k]]
-    variants = [_number(v, x) for x in distinct]
+    # a 0 takes something away altogether: that it is too much is the better word
+    variants = [replace(_number(v, x), rank=0 if x or abs(v) == 1 else 1) for x in distinct]
     return (lambda: [node]), lambda p, _: p[0], variants
 
 
@@ -326,7 +319,9 @@ def _exchange(i: int, j: int) -> Callable:
 
 
 def _function(other: str) -> Callable:
-    def change(function, *_):
+    def change(function, arguments, *_):
+        if other == "eye" and arguments and isinstance(arguments[0], tuple):  # zeros((4, 4))
+            arguments[:1] = arguments[0]
         owner = getattr(function, "__self__", None)  # a method: lam.max() to lam.min()
         if isinstance(owner, np.ndarray):
             return getattr(owner, other)
