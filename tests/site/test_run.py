@@ -6,7 +6,6 @@ import json
 import shutil
 import zipfile
 
-import numpy as np
 import pytest
 
 from coursekit.classroom.author import notebook
@@ -336,7 +335,7 @@ def test_the_page_that_loads_says_how_far_it_is(browser, run, served, slow):
         size = sum(listed["files"][name]["size"] for name in listed["first"])
         assert size < served.server.sent - before < 1.5 * size, "each file is loaded once"
         if slow:
-            assert max(np.diff(shares)) < 10, "a large file is told part by part"
+            assert len(shares) > 30, "files are told part by part"
 
 
 @pytest.fixture(scope="module")
