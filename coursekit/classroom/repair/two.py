@@ -31,6 +31,8 @@ def two_edits(search: _Search) -> str:
     """ "look at line 4: a sign; and at line 6: an index", '' if there are no two such edits."""
     if search.exercise.compare == "any_solution":  # entries of one right answer need not be those of another
         return ""
+    if BUDGET // FIRST // search.cost < 2 * len(search.examples):  # too few trials to find anything
+        return ""
     helpful = _that_help(search)
     pairs: dict[tuple, tuple[list[_Hit], list[_Hit]]] = {}
     for first in list({(hit.line, hit.gain): hit for hit in helpful[::-1]}.values())[::-1][:FIRST]:
@@ -64,11 +66,13 @@ def _both(search: _Search, ones: list[_Hit], others: list[_Hit]) -> str:
 
 def _of_a_part(search: _Search, helpful: list[_Hit]) -> str:
     """The one line in which an edit makes a part of the answer right on all examples."""
-    plain = search.examples
+    plain, search.left = search.examples, BUDGET // search.cost
     blocks = [block for block in blocks_of(search.exercise) if _varies(block, plain)]
     before = [_masks(search, search.box.compile(), example) for example in plain]
     found: dict[str, list[_Hit]] = {}
     for hit in helpful:
+        if search._over():
+            return ""  # another line might do as well
         with _standing(search, hit):
             function = _compiled(search)
             now = [_masks(search, function, example) for example in plain]
