@@ -31,6 +31,7 @@ from .texts import sentence
 from .two import two_edits
 
 BUDGET = 600_000  # executed lines, of the student's and of what they call
+IN_A_HELPER = 200_000  # of them, for edits of each of the student's own functions that it calls
 ONE = 10_000  # of them in a single trial, whose loop may not end any more
 SECONDS = 10.0  # of the processor: a backstop, where an edit makes work what did nothing before
 
@@ -69,7 +70,7 @@ def _in_a_helper(search: _Search) -> str:
     course, found = course_here(), []
     for name in [name for name in search.box.trees if not course.has(name)]:
         search.turn_to(name)
-        search.left = BUDGET // search.cost
+        search.left = IN_A_HELPER // search.cost
         if hits := search.hits():
             found.append(_told(search, hits, f" of `{name}`"))
     search.turn_to(search.box.whole)
