@@ -346,10 +346,7 @@ EXERCISES = [
             Hint("R_hat_p", "the lower left block is [p] R, in this order: first turn, then cross with p"),
             Hint("inverse", "that is the adjoint of the inverse: it maps from frame a to frame b"),
             Hint("minus_p", "[p] has its signs the wrong way round: [p] y must be p x y, for any y"),
-            Hint(
-                "rows_crossed",
-                "[p] R crosses p with the columns of R; yours with the rows",
-            ),
+            Hint("rows_crossed", "[p] R crosses p with the columns of R; yours with the rows"),
             Hint("no_p", "the lower left block is zero only where p is zero"),
             Hint("no_R", "the lower left block is [p] R: yours is [p] alone"),
             Hint("R_transposed", "R stands in all blocks as it is, not transposed"),

@@ -42,7 +42,7 @@ class _Hit:
     line: int
     kind: str
     what: str
-    edit: LineEdit | tuple[list[Place], int] | None = None  # or places, and which of their variants
+    edit: LineEdit | tuple[list[Place], int]  # or places, and which of their variants
     gain: float = 1.0  # of `two`: how much more of the answers is right with it
 
 

@@ -77,7 +77,7 @@ def sentence(kinds: list[tuple[str, str]], lines: list[int], body: int = 2, owne
         return ""
     if what == TEXTS["somewhere"] and lines[-1] - lines[0] > 1:
         return ""
-    if not where and not lines[-1] and what.startswith("every "):
+    if not where and not lines[-1] and not owner and what.startswith("every "):
         return f"look at {what}"
     elsewhere = "the arguments" if lines[-1] else "several lines at once"
     return f"look at {where or elsewhere}{owner}: {what}"

@@ -66,16 +66,16 @@ def _both(search: _Search, ones: list[_Hit], others: list[_Hit]) -> str:
 
 def _of_a_part(search: _Search, helpful: list[_Hit]) -> str:
     """The one line in which an edit makes a part of the answer right on all examples."""
-    plain, search.left = search.examples, BUDGET // search.cost
-    blocks = [block for block in blocks_of(search.exercise) if _varies(block, plain)]
-    before = [_masks(search, search.box.compile(), example) for example in plain]
+    examples, search.left = search.examples, BUDGET // search.cost
+    blocks = [block for block in blocks_of(search.exercise) if _varies(block, examples)]
+    before = [_masks(search, search.box.compile(), example) for example in examples]
     found: dict[str, list[_Hit]] = {}
     for hit in helpful:
         if search._over():
             return ""  # another line might do as well
         with _standing(search, hit):
             function = _compiled(search)
-            now = [_masks(search, function, example) for example in plain]
+            now = [_masks(search, function, example) for example in examples]
         if any(
             np.any(b & ~n)
             for was, is_ in zip(before, now, strict=True)
@@ -87,8 +87,7 @@ def _of_a_part(search: _Search, helpful: list[_Hit]) -> str:
             if all(is_) and was.count(False) > 1:
                 found.setdefault(block.text, []).append(hit)
     for text, hits in found.items():
-        best = [hit for hit in hits if hit.rank == min(hit.rank for hit in hits)]
-        if len({hit.line for hit in best}) == 1 and (told := _text(search, best)):
+        if len({hit.line for hit in hits}) == 1 and (told := _text(search, hits)):
             be = "are" if next(b for b in blocks if b.text == text).plural else "is"
             return f"{told}; with that mended, {text} {be} right"
     return ""
@@ -144,17 +143,14 @@ def _then(search: _Search, first: _Hit) -> list[_Hit]:
 @contextlib.contextmanager
 def _standing(search: _Search, hit: _Hit) -> Iterator[None]:
     """This edit is made, whatever else is tried."""
-    back: Callable[[], None] = lambda: None  # noqa: E731
-    if isinstance(hit.edit, LineEdit):
-        back = hit.edit.put()
-    elif hit.edit is not None:
-        group, k = hit.edit
-        search.fixed = [(place, place.variants[k]) for place in group]
-    try:
+    with contextlib.ExitStack() as after:
+        if isinstance(hit.edit, LineEdit):
+            after.callback(hit.edit.put())
+        else:
+            group, k = hit.edit
+            search.fixed = [(place, place.variants[k]) for place in group]
+            after.callback(search.fixed.clear)
         yield
-    finally:
-        search.fixed = []
-        back()
 
 
 def _likely(search: _Search, ranks: int) -> Iterator[tuple[int, _Hit]]:

@@ -117,19 +117,19 @@ export function velocityOf(T, S, p) {
  */
 export function shapesOf({ screws, M, shapes }, D) {
   const tool = product(D.at(-1), M).slice(12, 15), before = (k) => (k ? D[k - 1] : null);
-  const J = { linear: screws.map((S, k) => velocityOf(before(k), S, tool)), angular: screws.map((S, k) => turned(before(k), S.slice(0, 3))) };
-  return Object.assign({}, ...Object.entries(shapes).map(([path, [half, scale]]) => (
-    scale ? ellipsoid(path, J[half], scale, tool) : Object.fromEntries(J[half].map((v, k) => [`${path}/${k + 1}`, arrow(v, tool)])))));
+  const J = { linear: (S, k) => velocityOf(before(k), S, tool), angular: (S, k) => turned(before(k), S.slice(0, 3)) }; // a column of each half
+  return Object.assign({}, ...Object.entries(shapes).map(([path, [half, scale]]) => (scale ? ellipsoid : arrows)(path, screws.map(J[half]), tool, scale)));
 }
 
 const times = (v, by) => v.map((x) => x * by);
+const arrows = (path, columns, tool) => Object.fromEntries(columns.map((v, k) => [`${path}/${k + 1}`, arrow(v, tool)]));
 const matrix = (x, y, z, p) => [...x, 0, ...y, 0, ...z, 0, ...p, 1];
 function arrow(v, tool) {
   const speed = Math.hypot(...v), long = Math.max(speed, 1e-6);
   const z = speed > 1e-6 ? times(v, 1 / speed) : [0, 0, 1], y = crossed(z, [0.48, 0.6, 0.64]), wide = Math.sqrt(long) / Math.hypot(...y);
   return matrix(times(crossed(y, z), wide), times(y, wide), times(z, long), tool);
 }
-function ellipsoid(path, columns, scale, tool) {
+function ellipsoid(path, columns, tool, scale) {
   const U = [[1, 0, 0], [0, 1, 0], [0, 0, 1]], J = U.map((_, i) => columns.map((column) => column[i]));
   const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0), mixed = (a, x, b, y) => a.map((one, i) => x * one + y * b[i]);
   for (let turn = 0; turn < 24; turn += 1) { // until the rows of U J stand upright on each other (Jacobi): they are the half axes
