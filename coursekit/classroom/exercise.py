@@ -9,10 +9,14 @@ from __future__ import annotations
 import difflib
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from functools import cache
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
+
+if TYPE_CHECKING:
+    from coursekit.kinematics.robot import Robot
 
 KINDS = ("close", "angle", "rotation", "up_to_sign", "columns_up_to_sign", "turn", "set", "any_solution")
 USUAL = "for ordinary numbers"
@@ -186,15 +190,21 @@ def thaw(arguments: list) -> list:
 
 def _thaw(value):
     if isinstance(value, dict):
-        from coursekit import robots
-
         ((what, name),) = value.items()
-        robot = getattr(robots, name)()
+        robot = _robot(name)
         return robot if what == "robot" else (lambda theta: robot.fk(theta))
     if isinstance(value, list):
         array = np.array(value)
         return array if array.dtype.kind in "if" else value
     return value
+
+
+@cache
+def _robot(name: str) -> Robot:
+    """Made once, as it cannot be changed: a search for a line asks for it a thousand times."""
+    from coursekit import robots
+
+    return getattr(robots, name)()
 
 
 class Misfit(Exception):

@@ -54,10 +54,11 @@ def page_of(line: str) -> str | None:
     from coursekit.view.chain import shown_per_si
 
     found = _LINE.match(line)
-    arms = {arm.name: arm for arm in robots.all().values()}
-    if found is None or found["title"] not in EXPLORERS or found["name"] not in arms:
+    if found is None or found["title"] not in EXPLORERS:
         return None
-    robot = arms[found["name"]]
+    robot = {arm.name: arm for arm in robots.all().values()}.get(found["name"])
+    if robot is None:
+        return None
     shown = np.array([float(number) for number in re.findall(r"-?\d+\.\d+", found["joints"])])
     with _ONE_AT_A_TIME:
         panel = getattr(view, EXPLORERS[found["title"]])(robot)
