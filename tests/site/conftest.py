@@ -4,6 +4,7 @@ They need the packages of coursekit/site/requirements.txt: where these are missi
 reason; with CI=true they fail instead.
 """
 
+import contextlib
 import os
 from pathlib import Path
 
@@ -31,15 +32,32 @@ def pyodide(pytestconfig):
 
 @pytest.fixture(scope="session")
 def pages(request, tmp_path_factory):
-    """The folder of a site; with what runs in the browser if Pyodide's files are here, or must be (in CI)."""
+    """The folder of a site; with what runs in the browser if Pyodide's files are here, or must be (in CI).
+
+    The worker that comes first builds it for all: nobody may write into it.
+    """
     needs.what_builds_the_site()
-    out = tmp_path_factory.mktemp("site") / "out"
     try:
         files = request.getfixturevalue("pyodide")
     except pytest.skip.Exception:
         files = None
-    site.write(out, pyodide=files)
-    return out
+    folder = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        folder = folder.parent
+    with one_at_a_time(folder / "site.lock"):
+        if not (folder / "site").exists():
+            site.write(folder / "site", pyodide=files)
+    return folder / "site"
+
+
+@contextlib.contextmanager
+def one_at_a_time(path):
+    """Only one process is inside, where the system knows such locks; the site is tested on Linux."""
+    import fcntl
+
+    with path.open("w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -10,24 +10,13 @@ from pathlib import Path
 
 import pytest
 
-from coursekit.classroom.author import release
 from coursekit.classroom.course import the_course
-from coursekit.site import lite, wheels
+from coursekit.site import wheels
 from tests.classroom import leaks
-from tests.needs import absent, what_builds_the_site
+from tests.needs import absent
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
-
-
-@pytest.fixture(scope="module")
-def run(pyodide, tmp_path_factory):
-    """What runs in the browser, without the pages: these tests need no browser and wait for none."""
-    what_builds_the_site()
-    folder, course = tmp_path_factory.mktemp("run"), the_course()
-    release.release(folder / "course", course)
-    lite.write(folder / "course", pyodide, course.version, course.title, folder / "run")
-    return folder / "run"
 
 
 def in_node(script, *arguments, seconds=1800):

@@ -15,7 +15,7 @@ import itertools
 import time
 import warnings
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -102,6 +102,7 @@ class _Search:
         rounds = [self._rounds(self.box.compile(), example) for example in examples]
         self.box.most = min(TICKS, max(2 * max(rounds), ONE * max(rounds[0], 1) // cost))
         self.turn_to(self.box.whole)
+        self.known: dict[str, list[Place]] = {}  # places of a function, until a line of it is edited
         self.judge: Callable[[Callable], float] = self._right
         self.fixed: list[tuple[Place, Variant]] = []  # edits that stand while others are tried
         self.chosen: dict[int, Variant] = {}
@@ -141,7 +142,9 @@ class _Search:
         return self.left <= 0 or time.process_time() > self.end
 
     def _in_order(self) -> Iterator[tuple[int, Iterable[_Hit | None]]]:
-        every = list(places.places(self.tree))
+        if self.box.name not in self.known:
+            self.known[self.box.name] = list(places.places(self.tree))
+        every = self.known[self.box.name]
         yield 0, itertools.chain(self._edited(line_edits), self._places(every, 0))
         yield (
             1,
@@ -225,7 +228,7 @@ class _Search:
             what = variant.what or (places.likeness(group[0].node) if len(group) > 1 else "")
             good = self.judge(function)
             if good and self.sure and variant.unless is not None:
-                self.chosen |= {key: replace(v, value=v.unless or v.value) for key, v in self.chosen.items()}
+                self.chosen |= {key: v._replace(value=v.unless or v.value) for key, v in self.chosen.items()}
                 good = good if self.judge(function) < good else False
             yield _Hit(rank, line, kind, what, (group, k), good) if good else None
             if self._over():

@@ -146,6 +146,8 @@ def _standing(search: _Search, hit: _Hit) -> Iterator[None]:
     with contextlib.ExitStack() as after:
         if isinstance(hit.edit, LineEdit):
             after.callback(hit.edit.put())
+            after.callback(search.known.clear)
+            search.known.clear()
         else:
             group, k = hit.edit
             search.fixed = [(place, place.variants[k]) for place in group]

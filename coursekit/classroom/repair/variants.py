@@ -11,8 +11,7 @@ import itertools
 import math
 import operator
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -20,8 +19,7 @@ from .brackets import fraction, sum_without_brackets
 from .indices import changes, index_value
 
 
-@dataclass(frozen=True)
-class Variant:
+class Variant(NamedTuple):  # of all that is cannot change the quickest made: there are thousands
     """One edit of a place. The smaller its rank, the earlier it is tried."""
 
     kind: str  # of texts.py
@@ -195,7 +193,7 @@ def _constant(node: ast.Constant, variables: list[str]) -> Made:
         new += [1000 * v, *([1e-12] if 0 < v < 0.1 else [])]  # a tolerance that was too large
     distinct = [x for k, x in enumerate(new) if x != v and x not in new[:k]]
     # a 0 takes something away altogether: that it is too much is the better word
-    variants = [replace(_number(v, x), rank=0 if x or abs(v) == 1 else 1) for x in distinct]
+    variants = [_number(v, x)._replace(rank=0 if x or abs(v) == 1 else 1) for x in distinct]
     return (lambda: [node]), lambda p, _: p[0], variants
 
 
