@@ -80,3 +80,4 @@ def limits_3d(ax: Axes3D, limits: Sequence[tuple[float, float]], ticks: Iterable
         ax.set(**{f"{letter}ticks": inside})
     ax.set_box_aspect([high - low for low, high in limits], zoom=0.95)
     ax.tick_params(labelsize=8, pad=-2)
+    ax.tick_params(axis="z", pad=3)

@@ -127,7 +127,7 @@ def poses(robot: Robot, *thetas: Sequence[float] | np.ndarray) -> None:
     axes = axes_3d(len(thetas), (9.6, 6.2))
     for ax, theta in zip(axes, thetas, strict=True):
         frames = np.concatenate([robot.modified_dh.frames(theta), robot.fk(theta)[None]])
-        _scene(ax, robot, theta, frames, names, (0.3, 0, 0.1), view=(50, -90))
+        _scene(ax, robot, theta, frames, names, (0.5, 0, 0.1), view=(50, -90))
         ax.set_title(f"θ₁ = {np.degrees(theta[0]):.0f} deg", fontsize=11)
     show()
 

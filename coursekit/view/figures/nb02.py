@@ -69,7 +69,7 @@ def telescope() -> None:
     mark_axis(ax, "4", (A + 0.65 * D, B + C), (1, 0))
     mark_axis(ax, "5", (A + D, B + C), INTO)
     mark_frame(ax, "s", (0, 0), [("x", (1, 0)), ("z", (0, 1))])
-    mark_frame(ax, "b", corners[-1], [("x", (1, 0)), ("z", (0, -1))])
+    mark_frame(ax, "b", corners[-1], [("x", (1, 0)), ("z", (0, -1))], beside=(-26, -10))
     ax.set(xlabel="x [mm]", ylabel="z [mm]")
     show()
 

@@ -54,7 +54,7 @@ def _one_triangle(ax, side):
     for start, end, name, off in (
         ([0, 0], E, "$a_2$", 0.22 * side),
         (kink, P, "$d_4$", 0.24),
-        (E, kink, "$a_3$", 0.2),
+        (E, kink, "$a_3$", 0.2 * side),
         ([0, 0], P, "$b$", -0.2 * side),
         (E, P, "$a$", -0.22),
     ):
@@ -167,10 +167,10 @@ def _two_circles(ax):
         ax.plot(*meeting, "o", ms=8, color=palette("z"))
     for point, name in (
         (1.5 * k1, "k1"),
-        (1.75 * k2, "k2"),
-        (1.15 * x, "x"),
+        (2 * k2, "k2"),
+        (1.3 * x, "x"),
         (1.15 * y, "y"),
-        (1.2 * near, "z"),
+        (1.2 * near - [0, 0, 0.25], "z"),
     ):
         ax.text(*point, name, color=INK, fontsize=11)
     ax.plot(*np.array([x, y]).T, ".", ms=9, color=INK, lw=0)

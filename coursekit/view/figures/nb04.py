@@ -124,7 +124,7 @@ def on_axis_1() -> None:
         for (x, y), name in (
             ((knee + P) / 2 + 28 * across, "$d_4$"),
             ((elbow + P) / 2 - 26 * across, r"$\rho$"),
-            ((elbow + knee) / 2 - 30 * along, "$a_3$"),
+            ((elbow + knee) / 2 + (34 if where == "higher" else -30) * along, "$a_3$"),
         ):
             ax.text(x, y, name, color=palette(color), ha="center", va="center")
     ax.plot(*np.array([[0, 0], [0, d1], [a1, d1], elbow]).T, lw=4, color="#8A929C", solid_joinstyle="round")

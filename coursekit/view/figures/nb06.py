@@ -44,7 +44,8 @@ def attitudes(s: ArrayLike, quaternions: np.ndarray, zyx: np.ndarray, rotation_v
     for ax, (title, values, names, unit) in zip(axes, panels, strict=True):
         _lines(ax, s, values, names)
         ax.set(title=title, xlabel="distance along the path [m]", ylabel=unit)
-        ax.legend(frameon=False, fontsize=8)
+        place = {"loc": "lower left", "bbox_to_anchor": (0.1, -0.04)} if len(names) > 3 else {}
+        ax.legend(frameon=False, fontsize=8, labelspacing=0.2, **place)
     show()
 
 
