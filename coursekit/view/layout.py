@@ -37,19 +37,20 @@ def column(controls: Sequence[Control | Sliders], reset: Action) -> ipywidgets.W
     return ipywidgets.VBox([*rows, ipywidgets.Box([*switches, reset], layout=flow)]).add_class("ck-column")
 
 
-def beside(
-    column: ipywidgets.Widget | None, viewer: Viewer, words: Sequence[ipywidgets.Widget]
-) -> ipywidgets.Widget:
-    """The controls and, where they leave room, the words beside the picture; under it where it is narrow."""
-    seen = viewer.add_class("ck-scene")
-    return ipywidgets.Box([*([column] if column else []), seen, *words]).add_class("ck-top")
-
-
-def under(outputs: Sequence[ipywidgets.Widget]) -> list[ipywidgets.Widget]:
-    """A row of plots and tables, where there are some."""
+def around(
+    column: ipywidgets.Widget | None,
+    viewer: Viewer,
+    words: Sequence[ipywidgets.Widget],
+    outputs: Sequence[ipywidgets.Widget],
+) -> list[ipywidgets.Widget]:
+    """Controls and, where they leave room, words beside the picture; one plot under it, several in a row."""
     for output in outputs:
         output.layout.width = "auto"
-    return [ipywidgets.Box(list(outputs), layout=_flow("18px"))] if outputs else []
+    row = [ipywidgets.Box(list(outputs), layout=_flow("18px")).add_class("ck-under")] if outputs else []
+    near, far = (row, []) if len(outputs) == 1 else ([], row)
+    seen = viewer.add_class("ck-scene")
+    top = ipywidgets.Box([*([column] if column else []), seen, *near, *words]).add_class("ck-top")
+    return [top, *far]
 
 
 def close(widget: ipywidgets.Widget) -> None:

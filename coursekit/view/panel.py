@@ -115,8 +115,7 @@ class Panel(ipywidgets.VBox):
         self._reset_button = parts.Action("reset", act=self.reset)
         column = layout.column(controls, self._reset_button) if controls else None
         self.formula = [formula] if formula else []
-        top = layout.beside(column, self.viewer, [*self.formula, self.line])
-        self.children = [top, *layout.under(self.below)]
+        self.children = layout.around(column, self.viewer, [*self.formula, self.line], self.below)
         self._draw_below(values, lambda _plot: False)
         for control in self._widgets():
             self._listen(control)

@@ -31,6 +31,11 @@ IN_SIGHT = """async (handle) => {
     return inside(document.querySelector(".ck-viewer").getBoundingClientRect())
            && box.top >= column.top - 1 && box.bottom <= column.bottom + 1 && inside(box);
 }"""
+BELOW = """() => {
+    const place = (one) => document.querySelector(one).getBoundingClientRect();
+    const view = place(".ck-viewer"), map = place(".ck-plot");
+    return [map.left - view.left, map.top - view.bottom];
+}"""
 CONTRASTS = """() => {
     const parse = (text) => text.match(/[\\d.]+/g).map(Number);
     const light = ([r, g, b]) => [0.2126 * r, 0.7152 * g, 0.0722 * b].map((v, i) => {
@@ -95,6 +100,8 @@ def test_the_picture_and_the_control_that_is_moved_are_in_sight_together(opened,
     sliders = opened.page.locator(".ck-column [role=slider]")
     for k in range(6):
         assert sliders.nth(k).evaluate(IN_SIGHT), f"slider {k + 1} at {size}"
+    right, below = opened.page.evaluate(BELOW)  # the map: beside the words where the controls stand beside
+    assert size[0] < 800 or (-2 < right < 10 and 0 <= below < 10)
     opened.notebook.command("application:toggle-left-area") if size[0] < 800 else None
     opened.page.set_viewport_size({"width": 1366, "height": 768})
 

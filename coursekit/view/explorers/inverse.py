@@ -263,7 +263,7 @@ class _Inverse(yours.Inverse, Explorer):
             ax.semilogy(np.maximum(left, 1e-17), style, ms=4, label=name)
         ax.set(xlabel="step", ylabel="angle, distance left", ylim=(1e-17, 10))
         decades(ax, (-15, -10, -5, 0))
-        ax.set_title(self.verdict().split(";")[0], fontsize=10)
+        ax.set_title(self.verdict().split(";")[0], x=1, ha="right", fontsize=10)  # also of a narrow figure
         ax.legend(frameon=False)
 
     def run(self, values):

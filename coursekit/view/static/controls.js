@@ -177,7 +177,7 @@ function text(model, el) {
   let timer = null;
   const draw = () => {
     shown.style.minHeight = `${shown.offsetHeight}px`; // what is below goes up when they rest, not while a slider moves
-    const parts = model.get("value").split(/(\([^()]*\))/); // a vector is not broken where it fits on a line
+    const parts = model.get("value").split(/(\([^()]*\)|\S+-\S+)/); // no line ends within a vector that fits on one, nor after a hyphen
     shown.replaceChildren(...parts.map((part, i) => (i % 2 ? element("span", { class: "ck-whole" }, part) : part)));
     clearTimeout(timer);
     timer = setTimeout(() => {
