@@ -125,8 +125,12 @@ class Exporter(HTMLExporter):
         for cell in nb.cells:
             for output in cell.get("outputs", []):
                 page = page_of(output.get("data", {}).get("text/plain", ""))
+                said = output.get("metadata", {}).get("image/png", {}).get("alt")
                 if page is not None:
                     output.data["text/html"] = _frame(page)
+                elif said:  # nbconvert's own template leaves it out
+                    source = f"data:image/png;base64,{output.data['image/png']}"
+                    output.data["text/html"] = f'<img alt="{html.escape(said)}" src="{source}">'
         return super().from_notebook_node(nb, resources, **more)
 
 

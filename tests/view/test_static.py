@@ -30,12 +30,13 @@ def test_html_of_a_notebook_shows_the_picture_of_its_explorer():
     assert "vnd.jupyter.widget" not in page  # a widget without a kernel would be an empty box
 
 
-def test_nbconvert_makes_a_page_in_which_the_explorer_moves():
+def test_nbconvert_makes_a_page_in_which_the_explorer_moves_and_figures_say_their_numbers():
     notebook = nbformat.read(NOTEBOOK, as_version=4)
-    notebook.cells = [cell for cell in notebook.cells if cell.source.startswith("view.explore")]
+    notebook.cells = [cell for cell in notebook.cells if cell.source.startswith(("view.explore", "figures."))]
     page, _ = get_exporter("coursekit")().from_notebook_node(notebook)
     inner = re.findall(r'srcdoc="([^"]*)"', page)[0]
     assert "KUKA KR6 R900 sixx: joints (0.0, -90.0, 90.0" in inner and "No kernel runs here" in page
+    assert 'alt="at zero: x₃ stands upright.' in page and "No description" not in page
 
 
 @pytest.mark.parametrize("path", sorted(NOTEBOOK.parent.glob("*.ipynb")), ids=lambda path: path.stem)
