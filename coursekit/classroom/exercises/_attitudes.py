@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from itertools import permutations
+
 import numpy as np
+
+from coursekit.classroom.exercise import Edge
 
 
 def direction(rng):
@@ -71,6 +75,18 @@ def half_turn_in_a_plane(rng):
     return (2 * np.outer(k, k) - np.eye(3),)
 
 
+def half_turn_about_nearly(largest, next_):
+    """A line so near to an axis that of the two small components the larger one is lost in rounding."""
+    k = np.eye(3)[largest] + 1e-7 * np.eye(3)[next_]
+    return lambda rng: (2 * np.outer(k, k) - np.eye(3),)
+
+
+HALF_TURNS_ABOUT_NEARLY_AN_AXIS = tuple(
+    Edge(f"for half a turn about nearly {'xyz'[i]}", half_turn_about_nearly(i, k))
+    for i, k in permutations(range(3), 2)
+)
+
+
 def half_turn_about(axis):
     return lambda rng: (np.diag(2 * np.eye(3, dtype=int)[axis] - 1),)
 
@@ -121,7 +137,10 @@ def between(t=None, R_0=None):
 
 
 def nothing_between(rng):
-    (R,) = attitude(rng)
+    """Rounding carries the trace of R^T R past 3, and the cosine past 1."""
+    R = np.eye(3)
+    while np.trace(R.T @ R) < 3 + 2e-15:
+        R = attitude(rng)[0] @ attitude(rng)[0]
     return R, R, rng.uniform(0.2, 0.8)
 
 

@@ -125,7 +125,7 @@ def singular_step(rng):
 
 
 def whole_step(rng):
-    return rng.permutation([[1, 0, 2], [0, 1, -1]]), rng.permutation([1, -2]), 3
+    return rng.permutation([[1, 0, 2], [0, 1, -1]]), rng.permutation([1, -2]), 1.5
 
 
 def planar(rng):

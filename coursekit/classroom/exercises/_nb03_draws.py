@@ -226,6 +226,12 @@ def through_the_tool(rng):
     return kind, w, T[:3, 3] + rng.uniform(0.2, 0.5) * w, T
 
 
+def along_an_axis(rng):
+    """An axis along one of the room's: w alone holds whole numbers."""
+    kind, _, q, T = column(rng)
+    return kind, rng.permutation([0, 0, 1]), q, T
+
+
 def whole_column(rng):
     T = whole_pose(turn(2, np.pi / 2) @ turn(0, np.pi / 2), rng.integers(1, 5, 3))
     return "revolute", [0, 1, 0], rng.integers(-4, 0, 3), T

@@ -165,6 +165,9 @@ def rate_missed(args, value, right) -> str:
         return ""
     if np.abs(T_dot[3]).max() > SMALL:
         return "the last row of your T-dot is not 0 0 0 0: the 1 of a pose does not change"
+    gap = np.abs(T_dot - T_dot_right).max()
+    if 0 < gap < 1e-3:
+        return f"your T-dot is off by {gap:.0e}: rounded, or a difference over a small step? [S] H is exact"
     told = _vector_missed(T_dot[:3, 3], T_dot_right[:3, 3], "the tool's velocity", "m/s")
     if told:
         return f"in your T-dot, {told.replace(' by your Jacobian', '').replace(' in your Jacobian', '')}"

@@ -224,6 +224,7 @@ EXERCISES = [
             Edge("for a slide", lambda rng: _draw.column(rng, "prismatic"), 2),
             Edge("for a tool frame that is not turned", lambda rng: _draw.column(rng, R=np.eye(3))),
             Edge("for an axis through the tool point", _draw.through_the_tool),
+            Edge("for a w of whole numbers", _draw.along_an_axis),
             Edge("for whole numbers", _draw.whole_column),
         ),
         usual="for a hinge",

@@ -258,6 +258,7 @@ EXERCISES = [
             Hint("no_a1", "axis 1 is not above axis 2: the length a1 between them is missing"),
             Hint("no_a3", "the forearm is not straight: its offset a3 is missing"),
             Hint("lower", "that is the other solution, with the wrist lower"),
+            Hint("forth", "the forearm must lead back: c is minus the distance of axis 3 from axis 1"),
             Hint("upwards", "a positive angle turns downwards here; you let it turn upwards"),
             Hint("swapped_legs", "delta = atan2(b, a): b, the factor of the sine, is a3; a is d4"),
             Hint("sum", "this is theta2 + theta3, the angle of the forearm in the room"),
@@ -301,6 +302,7 @@ EXERCISES = [
                 "an arccos or arcsin of one unknown knows half of the circle: use both unknowns",
             ),
             Hint("arcsin", "an arcsin of one unknown knows half of the circle: use both unknowns"),
+            Hint("arctan", "arctan of a quotient loses which of the two was negative: arctan2 takes both"),
         ),
     ),
     Exercise(

@@ -291,6 +291,7 @@ EXERCISES = [
         points=3,
         draw=draws.factor(),
         shape=((4, 4), (6,)),
+        tol=1e-8,
         unit="1, m",
         laws=(("the last row of a pose never changes: that of T-dot is 0 0 0 0", _no_last_row),),
         samples=3,
@@ -319,6 +320,10 @@ EXERCISES = [
             Hint("body", "the inverse of T on the left gives the column of J_b, along the tool's axes"),
             Hint("swapped", "T_left stands before H, T_right behind it"),
             Hint("at_zero", "H-dot is [S] H: you have [S] alone, which is its value at theta = 0"),
+            Hint(
+                "seen_from_base",
+                "[S] H stands between T_left and T_right: S is seen from T_left's frame",
+            ),
             Hint("undifferentiated", "this is T, not its derivative: one factor has to become H-dot"),
             Hint(
                 "rows_swapped", "the column is (omega; v): you have v on top, as the assignment of 2020 does"

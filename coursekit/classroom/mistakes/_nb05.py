@@ -48,6 +48,13 @@ def rate_at_zero(T_left, S, theta, T_right):
     return T_dot, _read(T_dot @ R_o)
 
 
+def rate_seen_from_base(T_left, S, theta, T_right):
+    T, _ = _differentiated(T_left, S, theta, T_right)
+    T_dot, R_o = lie.hat6(S) @ T, np.eye(4)
+    R_o[:3, :3] = T[:3, :3].T
+    return T_dot, _read(T_dot @ R_o)
+
+
 def rate_undifferentiated(T_left, S, theta, T_right):
     T, _ = _differentiated(T_left, S, theta, T_right)
     return T, np.array([T[2, 1], T[0, 2], T[1, 0], *T[:3, 3]])
@@ -176,6 +183,7 @@ WRONG = {
         "body": rate_in_body,
         "swapped": rate_left_and_right_swapped,
         "at_zero": rate_at_zero,
+        "seen_from_base": rate_seen_from_base,
         "undifferentiated": rate_undifferentiated,
         "rows_swapped": rate_rows_swapped,
         "wrong_entries": rate_of_the_other_entries,

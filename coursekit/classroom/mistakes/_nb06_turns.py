@@ -116,9 +116,9 @@ def slerp_scaled(R_0, R_1, t):
     return t * R_1
 
 
-def slerp_the_long_way(R_0, R_1, t):
-    """Between quaternions with w >= 0, whichever way they lie."""
-    a, b = rotations.quaternion(R_0), rotations.quaternion(R_1)
+def slerp_the_long_way(R_0, R_1, t, quaternion=rotations.quaternion):
+    """Between quaternions with w >= 0, or with the largest component > 0, whichever way they lie."""
+    a, b = quaternion(R_0), quaternion(R_1)
     angle = np.arccos(np.clip(a @ b, -1, 1))
     if np.sin(angle) < 1e-9:
         return R_0
@@ -148,6 +148,7 @@ WRONG = {
         "backwards": slerp_backwards,
         "vectors": slerp_of_vectors,
         "long_way": slerp_the_long_way,
+        "long_way_too": lambda R_0, R_1, t: slerp_the_long_way(R_0, R_1, t, right.quaternion),
         "scaled": slerp_scaled,
     },
 }

@@ -47,6 +47,12 @@ def shoulder_without_a3(theta2, lengths):
     return shoulder(theta2, a1, a2, 0, d4)
 
 
+def shoulder_leading_forth(theta2, lengths):
+    a1, a2, a3, d4, _ = lengths
+    reach = np.clip((a1 + a2 * np.cos(theta2)) / np.hypot(a3, d4), -1, 1)
+    return np.arctan2(a3, d4) - np.arccos(reach) - theta2
+
+
 def shoulder_with_swapped_legs(theta2, lengths):
     a1, a2, a3, d4, _ = lengths
     reach = np.clip(-(a1 + a2 * np.cos(theta2)) / np.hypot(a3, d4), -1, 1)
@@ -93,6 +99,11 @@ def theta2_by_arccos(p, theta1, theta3, lengths):
 
 def theta2_by_arcsin(p, theta1, theta3, lengths):
     return np.arcsin(np.clip(_system(p, theta1, theta3, lengths)[1], -1, 1))
+
+
+def theta2_by_arctan(p, theta1, theta3, lengths):
+    cosine, sine = _system(p, theta1, theta3, lengths)
+    return np.arctan(sine / cosine) if abs(cosine) > 1e-9 else right.theta2_system(p, theta1, theta3, lengths)
 
 
 def theta2_without_a1_twice(p, theta1, theta3, lengths):
@@ -146,6 +157,7 @@ WRONG = {
         "no_a1": shoulder_without_a1,
         "no_a3": shoulder_without_a3,
         "lower": lambda theta2, lengths: shoulder(theta2, *lengths[:4], higher=1),
+        "forth": shoulder_leading_forth,
         "upwards": shoulder_turning_upwards,
         "swapped_legs": shoulder_with_swapped_legs,
         "sum": lambda theta2, lengths: theta2 + right.shoulder_theta3(theta2, lengths),
@@ -160,6 +172,7 @@ WRONG = {
         "divided": theta2_by_a_quotient,
         "one_quadrant": theta2_by_arccos,
         "arcsin": theta2_by_arcsin,
+        "arctan": theta2_by_arctan,
         "a1_twice": theta2_without_a1_twice,
     },
     "rank": {
