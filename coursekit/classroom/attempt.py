@@ -94,7 +94,12 @@ def line_of_nan(function: Callable, arguments: list) -> tuple[int, str]:
             function(*thaw(arguments))
     except FloatingPointError as error:
         frame, line = _place(error)
-        return line - frame.f_code.co_firstlineno + 1 if frame else 0, str(error)
+        if frame is None:
+            return 0, str(error)
+        text, said = linecache.getline(frame.f_code.co_filename, line), str(error)
+        if "**" in text and "sqrt" not in text:  # to numpy x ** 0.5 is a root
+            said = said.replace("in sqrt", "in power")
+        return line - frame.f_code.co_firstlineno + 1, said
     except Exception:
         pass
     return 0, ""

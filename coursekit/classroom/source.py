@@ -12,12 +12,15 @@ from types import CodeType, FrameType
 def definition(function: Callable) -> ast.FunctionDef | None:
     """A fresh syntax tree of the function, with the lines of its file or cell; None where there is no text.
 
+    A lambda that has a name, `f = lambda x: 2 * x`, is given as the `def` that it could have been.
     Jupyter keeps the text of every cell that was run; functions made by `exec` of a string have none.
     """
     code = getattr(function, "__code__", None)
     if not isinstance(code, CodeType):
         return None
     text = "".join(linecache.getlines(code.co_filename))
+    if code.co_name == "<lambda>":
+        return _named_lambda(text, code.co_firstlineno)
     for node in ast.walk(_parsed(text) or ast.Module([], [])):
         if isinstance(node, ast.FunctionDef) and node.name == code.co_name:
             first = min([node.lineno, *(d.lineno for d in node.decorator_list)])
@@ -27,6 +30,19 @@ def definition(function: Callable) -> ast.FunctionDef | None:
                     n for n in ast.walk(fresh) if isinstance(n, ast.FunctionDef) and n.lineno == node.lineno
                 ]
                 return same[0]
+    return None
+
+
+def _named_lambda(text: str, line: int) -> ast.FunctionDef | None:
+    for node in ast.walk(ast.parse(text) if _parsed(text) else ast.Module([], [])):
+        match node:
+            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Lambda() as made) if made.lineno == line:
+                made_anew = ast.parse(f"def {name}(): pass").body[0]
+                assert isinstance(made_anew, ast.FunctionDef)
+                ast.increment_lineno(made_anew, line - 1)
+                made_anew.args = made.args
+                made_anew.body = [ast.copy_location(ast.Return(made.body), made.body)]
+                return made_anew
     return None
 
 

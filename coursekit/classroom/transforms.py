@@ -166,6 +166,8 @@ def _transforms(exercise: Exercise, examples: list, answers: list, k: int) -> It
     right, mine = examples[k].right, answers[k]
     for text, applies, change in ONE:
         fits = [applies(part) for part in right]
+        if "whole turn" in text and exercise.kinds[0] in ("angle", "set"):
+            continue  # it is no difference there
         if any(fits):
             yield text, _on(fits, change)
     if exercise.several:

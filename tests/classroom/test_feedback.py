@@ -27,7 +27,7 @@ from coursekit import classroom
 from coursekit.classroom import repair
 from coursekit.classroom.course import the_course
 from coursekit.classroom.mistakes import Solved
-from coursekit.classroom.repair import texts
+from coursekit.classroom.repair import finite, texts
 from tests.classroom.mutations import reasons, survivors
 
 HERE = Path(__file__).resolve().parent
@@ -148,6 +148,20 @@ def quaternion(R):
         warnings.simplefilter("always")
         assert not diagnosis({"exercise": "quaternion", "code": code}).right
     assert not told, [str(warning.message) for warning in told]
+
+
+def test_no_edit_hands_lapack_what_it_does_not_come_back_from(capfd):
+    """Of an infinity svd may never return, and of a NaN lstsq writes to the terminal itself."""
+    code = """
+def newton_step(J_b, T_sb, T_sd):
+    e = lie.log6(np.linalg.inv(T_sb) @ T_sd)
+    return np.linalg.lstsq(J_b, e, rcond=None)
+"""
+    assert not diagnosis({"exercise": "newton_step", "code": code}).right
+    assert "DLASCL" not in "".join(capfd.readouterr())
+    for trial in (finite.NUMPY.linalg.svd, finite.NUMPY.linalg.pinv):
+        with pytest.raises(np.linalg.LinAlgError):
+            trial(np.diag([np.inf, 1.0]))
 
 
 def test_a_place_that_tells_nothing_is_not_told():

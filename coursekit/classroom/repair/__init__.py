@@ -2,9 +2,9 @@
 
 The function is tried with single edits, one after the other, the likely ones first, until a fixed number of
 executed lines is used up: the same code gets the same sentence on every machine. What is told is the line and
-the kind of the edit. The edit itself is never shown. Where one of two lines would do, both are told; nothing
-is told of more of them. Then the student's own functions that it calls are searched in the same way, and then
-two edits at once (`two`).
+the kind of the edit. The edit itself is never shown. Where one of two lines would do, both are told, or three
+if the edit is the same; nothing is told of more of them. Then the student's own functions that it calls are
+searched in the same way, and then two edits at once (`two`).
 """
 
 from __future__ import annotations
@@ -83,7 +83,8 @@ def _told(search: _Search, hits: list[_Hit], owner: str = "") -> str:
     below = [hit for hit in hits if not hit.line or hit.line - search.first + 1 >= search.body]
     hits = below or hits  # what is done to an argument is done wherever it is used: that place says more
     lines = sorted({hit.line - search.first + 1 if hit.line else 0 for hit in hits})
-    if len(lines) > 2 or (lines[-1] - lines[0] > 1 and lines[0] < search.body):
+    alike = len({(hit.kind, hit.what) for hit in hits}) == 1
+    if len(lines) > (3 if alike else 2) or (lines[-1] - lines[0] > 1 and lines[0] < search.body):
         return ""  # it could be here or there
     kinds = [(hit.kind, hit.what) for hit in sorted(hits, key=lambda hit: hit.line)]
     return sentence(kinds, lines, search.body, owner)
@@ -200,12 +201,13 @@ class _Search:
     def _arguments(self) -> Iterator[_Hit | None]:
         """An argument that comes in another form than the code thinks."""
         for name in self.exercise.arguments if self.box.name == self.box.whole else ():
+            used = {n.lineno for n in ast.walk(self.tree) if isinstance(n, ast.Name) and n.id == name}
             line = ast.Assign([ast.Name(name, ast.Store())], ast.Name(name, ast.Load()))
             places.located(line, self.tree)
             self.tree.body.insert(0, line)
             place = places.argument(line)
             try:
-                yield from self._try([place], place.variants, 2, self.tree.lineno)
+                yield from self._try([place], place.variants, 2, used.pop() if len(used) == 1 else self.first)
             finally:
                 self.tree.body.remove(line)
 

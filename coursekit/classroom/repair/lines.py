@@ -76,6 +76,9 @@ def _edits_of_body(body: list) -> Iterator[LineEdit]:
     for i in real:
         if len(real) > 1 and not isinstance(body[i], ast.FunctionDef):
             yield LineEdit("line", body[i].lineno, _replace(body, i, []))
+        elif isinstance(body[i], ast.Assign | ast.AugAssign):  # all that an `if` does
+            nothing = ast.copy_location(ast.Pass(), body[i])
+            yield LineEdit("line", body[i].lineno, _replace(body, i, [nothing]))
         inner: list = getattr(body[i], "body", [])
         if isinstance(body[i], ast.For | ast.While) and len(inner) > 2:
             last = inner[-1]

@@ -84,10 +84,13 @@ def likeness(node: ast.expr) -> str:
             return _SIGNS.get(type(node.op), "")
         case ast.Attribute(attr="T"):
             return ".T"
+        case ast.Attribute(attr="pi"):
+            return "pi"
         case ast.Constant(value=int() | float()):
             return repr(node.value)
         case ast.Subscript():
-            return f"[{ast.unparse(node.slice)}]"
+            text = ast.unparse(node.slice)
+            return f"[{text[1:-1] if isinstance(node.slice, ast.Tuple) else text}]"
         case ast.UnaryOp(op=ast.USub()):
             return "minus"
     return ""

@@ -23,6 +23,8 @@ TEXTS = {
     "entries": "the order of the entries",
     "transposed": "something that is transposed or should be",
     "inverse": "an inverse that is missing",
+    "other_inverse": "which of the two is inverted",
+    "other_transposed": "which of the two is transposed",
     "reversed": "an order from last to first",
     "half": "a factor 2",
     "turn": "half a turn or a whole one, pi or 2 pi",
@@ -88,11 +90,14 @@ def _lines(lines: list[int], body: int) -> str:
     lines = [line for line in lines if line >= min(body, 2)]
     if not lines:
         return ""
-    return f"line {lines[0]}" if len(lines) == 1 else f"line {lines[0]} or {lines[1]}"
+    *others, last = map(str, lines)
+    return f"line {', '.join(others)} or {last}" if others else f"line {last}"
 
 
 def _what(kinds: list[tuple[str, str]]) -> str:
     """One kind, or two of which either may be meant; three kinds say nothing."""
+    plain = [f"other_{kind}" for kind, _ in kinds]  # x.T @ y for x @ y, or for x @ y.T: one thing
+    kinds = [one for one in kinds if one[0] not in plain]
     if len({kind for kind, _ in kinds}) > 2:  # of a rotation the inverse is the transpose: once is enough
         kinds = [one for one in kinds if one[0] != "inverse" or ("transposed", one[1]) not in kinds]
     texts = list(dict.fromkeys(_one(kind, what) for kind, what in kinds))

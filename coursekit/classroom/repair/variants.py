@@ -16,7 +16,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .brackets import fraction, sum_without_brackets
+from .finite import LINALG
 from .indices import changes, index_value
+from .undone import one_undone
 
 
 class Variant(NamedTuple):  # of all that is cannot change the quickest made: there are thousands
@@ -89,6 +91,7 @@ _ALIKE = (
     ("argmin", "argmax"),
     ("amin", "amax"),
     ("floor", "ceil", "round"),
+    ("mod", "fmod"),
     ("inv", "pinv"),
     ("eig", "eigh"),
     ("vstack", "hstack", "column_stack"),
@@ -140,6 +143,10 @@ def _binary(node: ast.BinOp, variables: list[str]) -> Made:
     variants.append(Variant("extra", lambda p, _: p[1]))
     if kind in (ast.Add, ast.Sub) and (sum_ := sum_without_brackets(node, _OPERATORS)):
         return sum_[0], lambda p, _: compute(p[0], p[1]), [*variants, Variant("sum", sum_[1], rank=0)]
+    if kind is ast.MatMult and (inner := one_undone(node)):
+        matrix, word, other = inner
+        variants.append(Variant(f"other_{word}", other, rank=0))
+        return (lambda: [node.left, node.right, matrix]), _apply(compute), variants
     parts = fraction(node)
     if len(parts) > 2:  # x / 2 * a: the whole product was meant to stand below the line
         variants = [v for v in variants if v.kind != "operator"]  # x / 2 / a is the same
@@ -288,6 +295,8 @@ def _call(node: ast.Call, variables: list[str]) -> Made:
         variants += [variant("keyword", _keyword("axis", new), "axis") for new in _AXES]
     if count == 1 and name not in SIZES and name not in ("len", "zip", "enumerate"):
         variants.append(Variant("call", lambda p, _: p[1], name))
+    if name == "norm" and count == 1 and not keys:  # of a position, its distance from an axis
+        variants += [Variant("index", with_change(_part(slice(2))))]
     if name == "sign":
         variants.append(Variant("sign_of_zero", lambda p, _: np.where(p[1] < 0, -1.0, 1.0), rank=0))
     quotient = node.args[0] if count == 1 else None
@@ -316,6 +325,15 @@ def _exchange(i: int, j: int) -> Callable:
     return change
 
 
+def _part(some: slice) -> Callable:
+    def change(_, arguments, given):
+        if np.shape(arguments[0]) != (3,):
+            raise ValueError("no position")
+        arguments[0] = arguments[0][some]
+
+    return change
+
+
 def _function(other: str) -> Callable:
     def change(function, arguments, *_):
         if other == "eye" and arguments and isinstance(arguments[0], tuple):  # zeros((4, 4))
@@ -323,7 +341,7 @@ def _function(other: str) -> Callable:
         owner = getattr(function, "__self__", None)  # a method: lam.max() to lam.min()
         if isinstance(owner, np.ndarray):
             return getattr(owner, other)
-        return getattr(np, other, None) or getattr(np.linalg, other)
+        return getattr(np, other, None) or getattr(LINALG, other)
 
     return change
 

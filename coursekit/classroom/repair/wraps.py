@@ -98,7 +98,13 @@ def _done(ordinary: Callable, do: Callable) -> Callable:
 
 
 def _joined(ordinary: Callable, join: Callable, other: Callable) -> Callable:
-    return lambda p, v: join(ordinary(p, v), other(p, v))
+    def value(p, v):
+        y = other(p, v)
+        if isinstance(y, bool | np.bool_):
+            raise TypeError("a truth is no factor and no term")
+        return join(ordinary(p, v), y)
+
+    return value
 
 
 def _entry(name: str, k: int) -> Callable:
