@@ -7,6 +7,7 @@ import linecache
 from collections.abc import Callable
 from functools import lru_cache
 from types import CodeType, FrameType
+from typing import Any
 
 
 def definition(function: Callable) -> ast.FunctionDef | None:
@@ -37,8 +38,7 @@ def _named_lambda(text: str, line: int) -> ast.FunctionDef | None:
     for node in ast.walk(ast.parse(text) if _parsed(text) else ast.Module([], [])):
         match node:
             case ast.Assign(targets=[ast.Name(id=name)], value=ast.Lambda() as made) if made.lineno == line:
-                made_anew = ast.parse(f"def {name}(): pass").body[0]
-                assert isinstance(made_anew, ast.FunctionDef)
+                made_anew: Any = ast.parse(f"def {name}(): pass").body[0]
                 ast.increment_lineno(made_anew, line - 1)
                 made_anew.args = made.args
                 made_anew.body = [ast.copy_location(ast.Return(made.body), made.body)]
