@@ -160,6 +160,8 @@ LINES = """() => {
 
 
 def test_words_fill_the_room_under_the_controls(opened):
+    opened.page.wait_for_timeout(500)  # the map is drawn anew for the wide page, and the words with it
+    opened.settle()
     said = opened.words() + 30 * "\n." + "\n" + 30 * "long "
     opened.kernel(f"line.__setattr__('value', {said!r})")
     opened.page.wait_for_function(
