@@ -164,6 +164,23 @@ def newton_step(J_b, T_sb, T_sd):
             trial(np.diag([np.inf, 1.0]))
 
 
+@pytest.mark.parametrize(
+    "setup",
+    ["line = np.poly1d([1.0, 0.0])", "things = [(1.0 for _ in '1')]\nline = lambda x: x if things else 0"],
+    ids=["not hashable", "not to be copied"],
+)
+def test_a_line_is_looked_for_beside_odd_names(setup):
+    code = """
+def joint_screw(kind, w, q):
+    w = np.asarray(w, float) / np.linalg.norm(w)
+    if kind == "prismatic":
+        return np.r_[np.zeros(3), w]
+    return np.r_[w, line(1.0) * np.cross(w, q)]
+"""
+    found = diagnosis({"exercise": "joint_screw", "setup": setup, "code": code})
+    assert found.say and not found.right
+
+
 def test_a_place_that_tells_nothing_is_not_told():
     """Three kinds of edit at no line of its own: then what is right already is said."""
     three = [("reversed", ""), ("halves", ""), ("flipped", "")]

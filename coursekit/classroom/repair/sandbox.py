@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import ast
 import copy
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
@@ -120,7 +120,10 @@ class Sandbox:
                 return FINITE.get(value, value)
             raise Unfit(f"it uses {value.__name__}")
         if isinstance(value, np.ndarray | list | dict | set):
-            return copy.deepcopy(value)
+            try:
+                return copy.deepcopy(value)
+            except Exception:
+                raise Unfit(f"{name} cannot be copied") from None
         module = getattr(value, "__module__", "") or ""
         if isinstance(value, FunctionType) and not module.startswith(("numpy", "coursekit.kinematics")):
             return self._helper(name, value)
@@ -128,7 +131,7 @@ class Sandbox:
             ("numpy", "math", "coursekit.kinematics", "builtins", "scipy.linalg")
         ):
             raise Unfit(f"it calls {name}")
-        return FINITE.get(value, value) if callable(value) else value
+        return FINITE.get(value, value) if callable(value) and isinstance(value, Hashable) else value
 
     def _helper(self, name: str, function: FunctionType) -> FunctionType:
         """One of the student's own functions, with counted loops and without a way into the notebook."""
