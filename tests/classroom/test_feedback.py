@@ -166,8 +166,12 @@ def newton_step(J_b, T_sb, T_sd):
 
 @pytest.mark.parametrize(
     "setup",
-    ["line = np.poly1d([1.0, 0.0])", "things = [(1.0 for _ in '1')]\nline = lambda x: x if things else 0"],
-    ids=["not hashable", "not to be copied"],
+    [
+        "line = np.poly1d([1.0, 0.0])",
+        "things = [(1.0 for _ in '1')]\nline = lambda x: x if things else 0",
+        "def made():\n    def line(x): return x or later\n    return line\n    later = 1\nline = made()",
+    ],
+    ids=["not hashable", "not to be copied", "not there yet"],
 )
 def test_a_line_is_looked_for_beside_odd_names(setup):
     code = """
