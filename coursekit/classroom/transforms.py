@@ -156,18 +156,23 @@ ONE = (  # (what was done, to which arrays it can be done, how)
     ("your answer is off by half a turn (pi)", lambda x: True, lambda x: x - np.pi),
     ("your answer and the right one add up to pi", lambda x: True, lambda x: np.pi - x),
     ("your answer and the right one add up to pi / 2", lambda x: True, lambda x: np.pi / 2 - x),
-    ("your answer is off by a whole turn (2 pi)", lambda x: True, lambda x: x + 2 * np.pi),
-    ("your answer is off by a whole turn (2 pi)", lambda x: True, lambda x: x - 2 * np.pi),
 )  # fmt: skip
+WHOLE_TURN = tuple(
+    ("your answer is off by a whole turn (2 pi)", lambda x: True, change)
+    for change in (lambda x: x + 2 * np.pi, lambda x: x - 2 * np.pi)
+)
+
+
+def _of_one(kind: str) -> tuple:
+    """What may have been done to an array that is compared so: among angles a whole turn is no difference."""
+    return ONE if kind in ("angle", "set") else ONE + WHOLE_TURN
 
 
 def _transforms(exercise: Exercise, examples: list, answers: list, k: int) -> Iterator[tuple[str, Callable]]:
     """(text, transform of all parts), the likely ones first; k is an example that is wrong."""
     right, mine = examples[k].right, answers[k]
-    for text, applies, change in ONE:
+    for text, applies, change in _of_one(exercise.kinds[0]):
         fits = [applies(part) for part in right]
-        if "whole turn" in text and exercise.kinds[0] in ("angle", "set"):
-            continue  # it is no difference there
         if any(fits):
             yield text, _on(fits, change)
     if exercise.several:
@@ -176,7 +181,7 @@ def _transforms(exercise: Exercise, examples: list, answers: list, k: int) -> It
         for i, j in itertools.combinations(range(len(right)), 2):
             yield f"{names[i]} and {names[j]} have changed places", _exchange_parts(i, j)
         for i, name in enumerate(names):
-            for text, applies, change in ONE:
+            for text, applies, change in _of_one(exercise.kinds[i]):
                 if applies(right[i]) and not text.startswith("your answer is the opposite"):
                     said = text.replace("your answer", name).replace(
                         "every sign is", f"{name} has a sign that is"

@@ -17,7 +17,6 @@ import numpy as np
 
 from coursekit.classroom.lab import private_folders
 
-# WebGL without a graphics processor, and nothing that calls home.
 # Two pages of the address bar, which every new window would load (0.8 s of the processor each time); and what
 # Playwright switches off, whose own list this one replaces.
 _OFF = (
@@ -27,6 +26,7 @@ _OFF = (
     *("ThirdPartyStoragePartitioning", "AvoidCorsURLLoaderRestartOnRedirect", "OptimizationHints"),
     *("NetworkTimeServiceQuerying", "AimEnabled", "PreconnectToSearch"),
 )
+# WebGL without a graphics processor, and nothing that calls home.
 CHROMIUM_FLAGS = (
     "--no-sandbox",
     f"--disable-features={','.join(_OFF)}",

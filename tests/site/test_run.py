@@ -328,14 +328,13 @@ def test_the_page_that_loads_says_how_far_it_is(browser, run, served, slow):
         visit.page.wait_for_function("() => location.pathname.includes('/run/lab/')", timeout=300_000)
         shares = [float(text.split("(")[1].split(" %")[0]) for text in said if "%" in text]
         assert shares == sorted(shares)
-        assert shares[-1] == 100
+        assert shares[0] < 50 and shares[-1] == 100
         listed = json.loads((run / "files.json").read_text(encoding="utf-8"))
         first = {f"{served.url}/run/{name}?sum={listed['files'][name]['sum']}" for name in listed["first"]}
         assert first <= set(visit.page.evaluate(KEPT))
         size = sum(listed["files"][name]["size"] for name in listed["first"])
         assert size < served.server.sent - before < 1.5 * size, "each file is loaded once"
         if slow:
-            assert shares[0] < 50, "and from early on"
             assert len(shares) > 30, "files are told part by part"
 
 

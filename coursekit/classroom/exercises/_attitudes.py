@@ -63,22 +63,23 @@ def adding_up_to_nothing(rng):
     return turn(np.array(v) / length, 2 * np.arctan2(length, w))
 
 
-def half_turn(rng):
-    k = direction(rng)
+def _half_turn_along(k):
     return (2 * np.outer(k, k) - np.eye(3),)
+
+
+def half_turn(rng):
+    return _half_turn_along(direction(rng))
 
 
 def half_turn_in_a_plane(rng):
     """About a line square to one axis: one component is 0, and gives no sign."""
     a = rng.uniform(0.3, 1.2)
-    k = np.roll([np.cos(a), -np.sin(a), 0], rng.integers(3))
-    return (2 * np.outer(k, k) - np.eye(3),)
+    return _half_turn_along(np.roll([np.cos(a), -np.sin(a), 0], rng.integers(3)))
 
 
 def half_turn_about_nearly(largest, next_):
     """A line so near to an axis that of the two small components the larger one is lost in rounding."""
-    k = np.eye(3)[largest] + 1e-7 * np.eye(3)[next_]
-    return lambda rng: (2 * np.outer(k, k) - np.eye(3),)
+    return lambda rng: _half_turn_along(np.eye(3)[largest] + 1e-7 * np.eye(3)[next_])
 
 
 HALF_TURNS_ABOUT_NEARLY_AN_AXIS = tuple(

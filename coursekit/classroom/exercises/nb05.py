@@ -320,10 +320,7 @@ EXERCISES = [
             Hint("body", "the inverse of T on the left gives the column of J_b, along the tool's axes"),
             Hint("swapped", "T_left stands before H, T_right behind it"),
             Hint("at_zero", "H-dot is [S] H: you have [S] alone, which is its value at theta = 0"),
-            Hint(
-                "seen_from_base",
-                "[S] H stands between T_left and T_right: S is seen from T_left's frame",
-            ),
+            Hint("seen_from_base", "[S] H stands between T_left and T_right: S is seen from T_left's frame"),
             Hint("undifferentiated", "this is T, not its derivative: one factor has to become H-dot"),
             Hint(
                 "rows_swapped", "the column is (omega; v): you have v on top, as the assignment of 2020 does"

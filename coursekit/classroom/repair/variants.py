@@ -21,7 +21,7 @@ from .indices import changes, index_value
 from .undone import one_undone
 
 
-class Variant(NamedTuple):  # of all that is cannot change the quickest made: there are thousands
+class Variant(NamedTuple):  # there are thousands, and nothing else that cannot change is made so quickly
     """One edit of a place. The smaller its rank, the earlier it is tried."""
 
     kind: str  # of texts.py
