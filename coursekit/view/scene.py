@@ -293,6 +293,11 @@ class Scene:
         low, high = [self._low, *self._seen - margin], [self._high, *self._seen + margin]
         return camera.views(np.min(low, axis=0), np.max(high, axis=0), self.size)
 
+    def make_room(self, points: np.ndarray) -> None:
+        """Stand so far away from the beginning that these points (k, 3) are in every picture."""
+        self._low = np.minimum(self._low, points.min(axis=0))
+        self._high = np.maximum(self._high, points.max(axis=0))
+
     def see(self, points: np.ndarray) -> None:
         """Step back until these points (k, 3) are in the picture, too; with none: to where the camera was."""
         seen = np.vstack([self._seen, points]) if len(points) else points

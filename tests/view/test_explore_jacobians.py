@@ -6,6 +6,8 @@ import pytest
 
 from coursekit import ik, jacobians, robots, singularity, view
 from coursekit.view import text
+from coursekit.view.camera import ASPECT
+from coursekit.view.picture import _Eye
 
 
 @pytest.fixture
@@ -42,6 +44,22 @@ def test_the_ellipsoids_are_drawn_at_the_tool_to_the_scale_the_text_gives(panel)
         scale = float(line.split("drawn ")[1].split(" mm")[0]) / 1000
         lengths = jacobians.ellipsoid(panda.jacobian_geometric(theta), part).lengths
         np.testing.assert_allclose(np.linalg.norm(placed[:3, :3], axis=0), scale * lengths, rtol=1e-9)
+
+
+def test_the_target_and_the_ellipsoid_of_every_named_pose_are_in_the_picture():
+    model, poses = robots.kuka_kr10_report(), {"stretched": np.zeros(6), "up": [0, -1.6, 0.04, 0, 0.5, 0]}
+    panel = view.explore_jacobians(model, poses=poses)
+    eye = _Eye(panel.scene.views["home"], 470 * ASPECT, 470)
+    corners = np.array(np.meshgrid(*[[-1, 1]] * 3)).reshape(3, -1).T
+    for theta in poses.values():
+        panel.set(theta=theta)
+        worlds = panel.scene.worlds(["/ck/linear/body", "/ck/target"])
+        ellipsoid, goal = worlds["/ck/linear/body"], worlds["/ck/target"]
+        ends = goal[:3, 3] + 0.14 * panel.scene.size * goal[:3, :3].T
+        round_ball = corners / np.sqrt(3) @ ellipsoid[:3, :3].T + ellipsoid[:3, 3]
+        pixels = eye.project(np.vstack([ends, round_ball]))[0]
+        assert np.all((pixels > 5) & (pixels < [470 * ASPECT - 5, 465]))
+    panel.close()
 
 
 def test_the_switches_hide_the_ellipsoids(panel):

@@ -96,10 +96,18 @@ class _Jacobians(yours.Jacobians, Explorer):
         # metres drawn for 1 m/s and for 1 rad/s; rounded, so that the text is exact
         self.scale = {part: round(scale * self.scene.size, 2) for part, scale in SCALE.items()}
         self.arm.shapes = {f"/ck/{part}": (part, scale) for part, scale in self.scale.items()}
+        self.scene.make_room(self._filled([self.near, *poses.values()]))
         self.arm.shapes[COLUMNS], size = ("linear", 0), self.scale["linear"]
         for k in range(1, robot.n + 1):  # arrows of one shape that are placed and stretched
             look = pointing.COLOR, f"v{k}", 0.03 * size
             pointing.mean(self.scene.arrow(f"{COLUMNS}/{k}", np.zeros(3), [0, 0, size], *look), f"J{k}")
+
+    def _filled(self, thetas):
+        """Corners (k, 3) of what ellipsoid and frames fill where an arm stands at these thetas (m, n)."""
+        T, J = self.robot.fk(np.array(thetas)), self.robot.jacobian_geometric(np.array(thetas))
+        tools, half = T[:, :3, 3], self.scale["linear"] * np.linalg.norm(J[:, 3:], axis=2)
+        goal = self.target[:3, 3] + np.outer([-1, 1], np.full(3, 0.2 * self.scene.size))
+        return np.concatenate([tools - half, tools + half, goal])
 
     def start_at(self, theta):
         super().start_at(theta)
