@@ -345,6 +345,10 @@ class Action(Control):
     def reset(self) -> None:
         pass
 
+    def offer(self, there: bool) -> None:
+        """Show the button only where it has something to do."""
+        self.layout.display = None if there else "none"
+
     def __repr__(self) -> str:
         return f"Action({self.name})"
 

@@ -49,7 +49,7 @@ class Prediction:
             Action("next_question", "next question", self.next),
         ]
         for button in self.buttons:
-            button.layout.display = "none"
+            button.offer(False)
 
     @property
     def is_open(self) -> bool:
@@ -73,7 +73,7 @@ class Prediction:
         if not on:
             self.scene.see(np.empty((0, 3)))
         for button in self.buttons:
-            button.layout.display = None if on else "none"
+            button.offer(on)
         if self.told and (not resting or (isinstance(found, Question) and found.key == self._key)):
             return  # the answer stays in sight
         self.told = ""

@@ -86,6 +86,11 @@ def said(panel, name):
     return line.removeprefix(begin)
 
 
+def offered(panel):
+    """Whether the buttons that come with the student's functions are there, one bool each."""
+    return [button.layout.display != "none" for button in panel._update.__self__._brought]
+
+
 def agrees(words):
     good = ("below 1e-", "which is right", "judged rightly", "nothing is lost here")
     return "off" not in words and any(told in words for told in good)
@@ -140,7 +145,7 @@ def test_what_a_function_returned_is_no_function():
 def test_a_right_function_agrees_everywhere(opened, opener, name):
     panel = opened(opener, {name: right(name)})
     for _ in range(2):
-        assert agrees(said(panel, name))
+        assert agrees(said(panel, name)) and all(offered(panel))
         move(panel)
 
 
@@ -169,6 +174,7 @@ def test_a_function_that_is_not_written_yet_says_what_will_be_seen(opened, opene
     sees = mine.WANTED[opener][name].sees
     assert said(panel, name) == f"not written yet. Write it, and you see {sees}"
     assert sketch.ROOT not in "".join(panel.scene.parts)
+    assert not any(offered(panel))  # a button that does nothing
 
 
 def raises(*arguments):

@@ -110,6 +110,8 @@ class Explorer:
             self._ask(values["predict"])
         live = self.panel is not None and self.panel.live
         waits = self.mine.look(lambda name: self._yours(name, values), self.scene, live)
+        for button in self._brought:
+            button.offer(self._is_ready(button.name))
         self.scene.said = self.mine.words(timed=False)
         if waits and self.panel:
             self.panel.late = True
@@ -124,8 +126,12 @@ class Explorer:
             self.secret()
 
     def _more(self):
-        """The controls that the student's functions bring along."""
+        """The buttons that the student's functions bring along."""
         return []
+
+    def _is_ready(self, name):
+        """Whether this button of theirs has something to do now."""
+        return True
 
     def _yours(self, name, values):
         label = f"yours: {name}" if len(self.mine.functions) > 1 else "yours"
@@ -142,7 +148,8 @@ class Explorer:
         """The panel, `height` pixels of picture, the arm at theta (n,) where that is given."""
         self.prediction = Prediction(self.scene)
         picker = [Choice("robot", self.arms)] if len(self.arms) > 1 else []
-        controls = [*picker, *self.controls(), *self._more(), *self.prediction.controls()]
+        self._brought = self._more()
+        controls = [*picker, *self.controls(), *self._brought, *self.prediction.controls()]
         below = self.below()
         if theta is not None:
             self.start_at(np.asarray(theta, float))

@@ -22,6 +22,9 @@ class Jacobians(Explorer):
         runs = {"dls_step", "dls_loop"} & set(self.mine.functions)
         return [Action("mine", "play yours", self._play)] if runs else []
 
+    def _is_ready(self, _name):
+        return self.run is not None
+
     def _jacobian_space(self, sketch, values):
         robot, theta = self.robot, values["theta"]
         mine = self.mine.ask("jacobian_space", robot.S, theta)
@@ -159,6 +162,5 @@ class Jacobians(Explorer):
         return run(thetas, left, ik.dls_step(*self._task(self.start), values["damping"]))
 
     def _play(self):
-        if self.run is not None:
-            self.playing = "yours"
-            self.panel.play(self.run, fps=2.0, follow=self.draw)
+        self.playing = "yours"
+        self.panel.play(self.run, fps=2.0, follow=self.draw)

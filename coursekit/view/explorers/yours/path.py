@@ -22,6 +22,9 @@ class Path(Explorer):
         wanted = "largest_speed" in self.mine.functions
         return [Action("mine", "play at your speed", self._play)] if wanted else []
 
+    def _is_ready(self, _name):
+        return self.speed is not None
+
     def _tool_frames(self, sketch, _values):
         right = path.frames(self.points)
         mine = self.mine.ask("tool_frames", self.points, path.SPHERE_CENTER)
@@ -144,8 +147,6 @@ class Path(Explorer):
         return f"{text.number(mine, 4)} m/s: joint {joint + 1} turns {times} times too fast at point {i + 1}"
 
     def _play(self):
-        if self.speed is None:
-            return
         share = 100 * np.abs(path.joint_rates(self.q[self.branch], self.points, self.speed) / self.bounds)
         texts = []
         for i in self.shown:

@@ -19,10 +19,13 @@ class Singularities(Explorer):
         self.ends = {}  # name -> where the student's angle leads
         labels = {"elbow_angle": "to your elbow", "shoulder_theta3": "to your shoulder"}
         return [
-            Action(f"to_{name}", label, partial(self._drive, name))
+            Action(name, label, partial(self._drive, name))
             for name, label in labels.items()
             if name in self.mine.functions
         ]
+
+    def _is_ready(self, name):
+        return self.ends.get(name) is not None
 
     def _rank(self, _sketch, values):
         J = self.robot.jacobian_body(values["theta"])
@@ -50,8 +53,7 @@ class Singularities(Explorer):
         return J
 
     def _drive(self, name):
-        if self.ends.get(name) is not None:
-            self._drive_to(self.ends[name])
+        self._drive_to(self.ends[name])
 
     def _elbow_angle(self, sketch, values):
         self.ends["elbow_angle"] = None
