@@ -72,12 +72,18 @@ def axes_3d(count: int, size: tuple[float, float]) -> np.ndarray:
     return axes
 
 
-def limits_3d(ax: Axes3D, limits: Sequence[tuple[float, float]], ticks: Iterable[float], unit: str) -> None:
+def limits_3d(
+    ax: Axes3D,
+    limits: Sequence[tuple[float, float]],
+    ticks: Iterable[float],
+    unit: str,
+    zoom: float = 0.95,
+) -> None:
     """Equal axes over three pairs (low, high), with those of the ticks that lie inside."""
     for letter, (low, high) in zip("xyz", limits, strict=True):
         ax.set(**{f"{letter}lim": (low, high), f"{letter}label": f"{letter} [{unit}]"})
         inside = [t for t in ticks if low <= t <= high]
         ax.set(**{f"{letter}ticks": inside})
-    ax.set_box_aspect([high - low for low, high in limits], zoom=0.95)
+    ax.set_box_aspect([high - low for low, high in limits], zoom=zoom)
     ax.tick_params(labelsize=8, pad=-2)
     ax.tick_params(axis="z", pad=3)

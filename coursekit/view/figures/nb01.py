@@ -127,7 +127,7 @@ def poses(robot: Robot, *thetas: Sequence[float] | np.ndarray) -> None:
     axes = axes_3d(len(thetas), (9.6, 6.2))
     for ax, theta in zip(axes, thetas, strict=True):
         frames = np.concatenate([robot.modified_dh.frames(theta), robot.fk(theta)[None]])
-        _scene(ax, robot, theta, frames, names, (0.5, 0, 0.1), view=(50, -90))
+        _scene(ax, robot, theta, frames, names, (0.5, 0, 0.1), view=(50, -90), zoom=1.25)
         ax.set_title(f"θ₁ = {np.degrees(theta[0]):.0f} deg", fontsize=11)
     show()
 
@@ -183,10 +183,13 @@ def _name(ax, frames, names, length):
     flat = np.stack([right, up], axis=1)
     taken = [_along(T, k, s * length) @ flat for T in frames for k in range(3) for s in (0, 0.5, 1, 1.4)]
     turn = np.arange(0, 2 * np.pi, np.pi / 12)
-    ring = length * (0.8 * np.outer(np.cos(turn), right) + 0.65 * np.outer(np.sin(turn), up))
     for T, name in zip(frames, names, strict=True):
-        places = T[:3, 3] + ring
-        room = np.linalg.norm((places @ flat)[:, None] - np.array(taken), axis=-1).min(axis=1)
+        wide = max(1, len(name) / 2.2)  # a long name keeps farther away to either side
+        places = T[:3, 3] + length * (
+            0.8 * wide * np.outer(np.cos(turn), right) + 0.65 * np.outer(np.sin(turn), up)
+        )
+        away = ((places @ flat)[:, None] - np.array(taken)) / [wide, 1]
+        room = np.linalg.norm(away, axis=-1).min(axis=1)
         best = places[room.argmax()]
         taken.append(best @ flat)
         ax.text(*best, f"{{{name}}}", fontsize=10, weight="bold", color=INK, ha="center", va="center")
@@ -201,7 +204,7 @@ def _arc(ax, T, start, stop, radius, name, color):
     ax.text(*middle, name, fontsize=12, color=palette(color), ha="center", va="center")
 
 
-def _scene(ax, robot, theta, frames, names, fan, view=(16, -62)):
+def _scene(ax, robot, theta, frames, names, fan, view=(16, -62), zoom=0.95):
     """The arm as a line through its joints, its axes dashed, and frames, fanned out where they crowd.
 
     view: elevation and azimuth of the eye, in degrees.
@@ -223,6 +226,6 @@ def _scene(ax, robot, theta, frames, names, fan, view=(16, -62)):
         _triad(ax, moved, 0.11)
     points = np.concatenate([points, shown[:, :3, 3]])
     low, high = points.min(axis=0) - 0.16, points.max(axis=0) + 0.16
-    limits_3d(ax, list(zip(low, high, strict=True)), ticks=np.arange(-2, 2.1, 0.5), unit="m")
+    limits_3d(ax, list(zip(low, high, strict=True)), np.arange(-2, 2.1, 0.5), "m", zoom)
     ax.view_init(*view)
     _name(ax, shown, names, 0.11)
