@@ -89,6 +89,7 @@ def execute(path: Path, timeout: float = 120) -> None:
         store_widget_state=False,
         record_timing=False,
         coalesce_streams=True,
+        extra_arguments=["--log-level=ERROR"],  # a kernel of one's own machine warns of eavesdroppers
         resources={"metadata": {"path": str(path.parent)}},
     )
     client.execute(env={**os.environ, "CI": "1"})
