@@ -293,10 +293,11 @@ class Scene:
         low, high = [self._low, *self._seen - margin], [self._high, *self._seen + margin]
         return camera.views(np.min(low, axis=0), np.max(high, axis=0), self.size)
 
-    def make_room(self, points: np.ndarray) -> None:
-        """Stand so far away from the beginning that these points (k, 3) are in every picture."""
-        self._low = np.minimum(self._low, points.min(axis=0))
-        self._high = np.maximum(self._high, points.max(axis=0))
+    def make_room(self, points: np.ndarray, around: float = 0.0) -> None:
+        """Stand so far away that these points (..., 3), and so many metres around them, are always seen."""
+        points = points.reshape(-1, 3)
+        self._low = np.minimum(self._low, points.min(axis=0) - around)
+        self._high = np.maximum(self._high, points.max(axis=0) + around)
 
     def see(self, points: np.ndarray) -> None:
         """Step back until these points (k, 3) are in the picture, too; with none: to where the camera was."""

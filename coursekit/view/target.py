@@ -18,6 +18,7 @@ from coursekit.view.controls import Slider, Sliders
 TURNS = {"yaw": np.pi, "pitch": np.pi / 2, "roll": np.pi}  # how far each goes either way
 SAMPLES = 121  # along a slider; what is narrower than the gap between two (a pixel or two) may be missed
 FINER = 16, 2  # an end is looked for among so many values between two samples, and again so often
+HELD = 0.2  # sizes of the arm: as far round a target its handles may stand
 QUICK = 0.005  # seconds that may pass while a slider is dragged
 LEGEND = """<div class="ck-control ck-legend">while the other five stay:
 <span class="ck-band"></span> there is a solution,

@@ -14,6 +14,7 @@ from coursekit.view.panel import Panel
 from coursekit.view.prediction import ROOT, Prediction
 from coursekit.view.questions import Question
 from coursekit.view.scene import Scene
+from coursekit.view.target import HELD
 
 
 class Explorer:
@@ -29,6 +30,7 @@ class Explorer:
     title: ClassVar[str]  # what the stored line of text calls it
     opener: ClassVar[str]  # the function of `view` that opens it
     in_space: ClassVar[bool] = True  # the space frame is drawn
+    around: ClassVar[float] = HELD  # sizes of the arm that are seen round the tool at first
     computed: ClassVar[tuple[str, ...]] = ()  # paths of what only `update` can place for another theta
     prediction: Prediction  # made with the panel: an explorer that is refused leaves no widgets behind
 
@@ -153,6 +155,7 @@ class Explorer:
         below = self.below()
         if theta is not None:
             self.start_at(np.asarray(theta, float))
+            self.scene.make_room(self.robot.fk(theta)[:3, 3], self.around * self.scene.size)
         if self.in_space:
             self.scene.frame("/ck/space", np.eye(4), "s", 0.12 * self.scene.size)
         self.panel = Panel(

@@ -17,7 +17,7 @@ from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot, decades
 from coursekit.view.silhouettes import silhouettes
 from coursekit.view.table import Table
-from coursekit.view.target import pose_of, pose_sliders
+from coursekit.view.target import HELD, pose_of, pose_sliders
 
 # A pose in reach of every arm, where the eight solutions of a KR6 keep the limits and look different.
 CONFIGURATION = (0.6, -1.0, 1.2, 0.7, 0.8, 0.3)
@@ -70,6 +70,7 @@ class _Inverse(yours.Inverse, Explorer):
         pointing.axes(self.scene, self.arm)
         self.target = self.scene.frame("/ck/target", self.T, letter="d", size=0.08 * self.scene.size)
         self.arm.goal = self.target.path
+        self.scene.make_room(robot.fk(self.shown)[:3, 3], HELD * self.scene.size)
 
     def controls(self):
         robot = self.robot

@@ -16,7 +16,7 @@ from coursekit.view.mine import Given
 from coursekit.view.panel import Panel
 from coursekit.view.plots import Plot, decades
 from coursekit.view.shapes import frame_along
-from coursekit.view.target import pose_of, pose_sliders
+from coursekit.view.target import HELD, pose_of, pose_sliders
 
 STRETCHED = (0.0, 0.6, 0.0, -0.08, 0.0, 0.5, 0.7)  # of the Panda: elbow almost straight
 NEARLY_ZERO = 0.05  # rad or m; the start of every other arm
@@ -96,18 +96,18 @@ class _Jacobians(yours.Jacobians, Explorer):
         # metres drawn for 1 m/s and for 1 rad/s; rounded, so that the text is exact
         self.scale = {part: round(scale * self.scene.size, 2) for part, scale in SCALE.items()}
         self.arm.shapes = {f"/ck/{part}": (part, scale) for part, scale in self.scale.items()}
-        self.scene.make_room(self._filled([self.near, *poses.values()]))
+        self.scene.make_room(self.target[:3, 3], HELD * self.scene.size)
+        self.scene.make_room(self._ends_of_ellipsoids([self.near, *poses.values()]))
         self.arm.shapes[COLUMNS], size = ("linear", 0), self.scale["linear"]
         for k in range(1, robot.n + 1):  # arrows of one shape that are placed and stretched
             look = pointing.COLOR, f"v{k}", 0.03 * size
             pointing.mean(self.scene.arrow(f"{COLUMNS}/{k}", np.zeros(3), [0, 0, size], *look), f"J{k}")
 
-    def _filled(self, thetas):
-        """Corners (k, 3) of what ellipsoid and frames fill where an arm stands at these thetas (m, n)."""
+    def _ends_of_ellipsoids(self, thetas):
+        """How far the linear ellipsoids reach, (2, m, 3), where the arm stands at these thetas (m, n)."""
         T, J = self.robot.fk(np.array(thetas)), self.robot.jacobian_geometric(np.array(thetas))
         tools, half = T[:, :3, 3], self.scale["linear"] * np.linalg.norm(J[:, 3:], axis=2)
-        goal = self.target[:3, 3] + np.outer([-1, 1], np.full(3, 0.2 * self.scene.size))
-        return np.concatenate([tools - half, tools + half, goal])
+        return np.stack([tools - half, tools + half])
 
     def start_at(self, theta):
         super().start_at(theta)

@@ -67,7 +67,7 @@ def explore_singularities(
 
 class _Singularities(yours.Singularities, Explorer):
     name, title, opener = "singularities", "Explorer of singularities", "explore_singularities"
-    computed = ("/ck/lost", "/ck/meets_all")
+    computed, around = ("/ck/lost", "/ck/meets_all"), 0.28  # the arrow of a loss, and its name
 
     def __init__(self, arms, mine):
         super().__init__(mine, *arms)
