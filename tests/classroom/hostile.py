@@ -185,6 +185,13 @@ fk_kind(
     "value = right(theta, l1, l2)\ntheta[:] = 0\nreturn value",
     feedback="changes its argument `theta`",  # as the student's own check says
 )
+fk_kind(
+    "hides_that_arguments_are_changed",
+    NO_FK,
+    "value = right(theta, l1, l2)\ntheta[:] = 0\nreturn value",
+    "changes its argument `theta`",
+    "import copy\nnp.array_equal = lambda *both, **more: True\ncopy.deepcopy = lambda x, *more: x",
+)
 fk_kind("letters_of_all_the_world", FULL, "return right(theta, l1, l2)", before="θ̂ = 'naïve 机器人 🤖'")
 fk_kind("magics_in_the_cell", FULL, "return right(theta, l1, l2)", before="%precision 3\n!echo hello")
 cell_kind("a_question_mark_and_a_shell", "np.cos?\n!ls /")
@@ -863,3 +870,12 @@ fk_kind("script_in_the_feedback", NO_FK, "raise ValueError('<script>alert(1)</sc
 fk_kind(
     "tells_the_hidden_inputs", NO_FK, "raise ValueError(str([*theta.tolist(), l1, l2]))", "ValueError: […, …"
 )
+TELLS = {
+    "in_hexadecimal": "raise ValueError(theta.tobytes().hex())",
+    "in_one_number": "raise IndexError(int(abs(theta[0]) * 10**15))",
+    "as_an_error": "raise type('E' + theta.tobytes().hex(), (Exception,), {})('name')",
+    "as_a_name": "raise NameError(f\"name 'x{theta.tobytes().hex()}' is not defined\")",
+    "as_a_function_of_the_library": "getattr(robots, 'x' + theta.tobytes().hex())()",
+}
+for name, body in TELLS.items():
+    fk_kind(f"tells_the_hidden_inputs_{name}", NO_FK, body, before="from coursekit import robots")

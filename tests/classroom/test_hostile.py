@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import os
+import re
 import shutil
 import socket
 import tempfile
@@ -16,7 +17,7 @@ import pytest
 from coursekit.classroom.author import notebook
 from coursekit.classroom.grader.box import bubblewrap
 from coursekit.classroom.grader.worker import hidden_inputs
-from tests.classroom.hostile import FULL, KINDS
+from tests.classroom.hostile import FULL, KINDS, TELLS
 from tests.classroom.small import COURSE, ROOT, grade_small, hand_in, points, records
 
 pytestmark = [
@@ -115,9 +116,23 @@ def test_no_cell_of_the_table_is_a_formula(graded):
 
 
 def test_pages_escape_what_students_wrote(graded):
-    page = (graded["folder"] / "out" / "script_in_the_feedback.html").read_text("utf-8")
+    page = (graded["folder"] / "out" / "marks_that_lie.html").read_text("utf-8")
+    assert "&lt;b&gt;" in page
+    assert "<b>" not in page
+    page = (graded["folder"] / "out" / "class.html").read_text("utf-8")
     assert "&lt;script&gt;" in page
     assert "<script" not in page
+
+
+@pytest.mark.parametrize("name", TELLS)
+def test_a_page_tells_no_text_of_an_error(graded, name):
+    name = f"tells_the_hidden_inputs_{name}"
+    said = graded["records"][name]["exercises"]["fk"]["text"]
+    page = (graded["folder"] / "out" / f"{name}.html").read_text("utf-8")
+    longest = max(re.findall(r"\w+", said), key=len)  # the instructor can read it
+    assert len(longest) > 15
+    assert longest not in page
+    assert "is not shown" in page or "something of coursekit" in page
 
 
 def test_pages_hold_no_hidden_number(graded):

@@ -27,6 +27,7 @@ class Mark:
     step: str = ""
     said: str = ""  # the text without its details
     line: str = ""  # where to look, by the search in the student's own code
+    page: str = ""  # what the student reads in place of the text, '' if that is the text
 
 
 @dataclass(frozen=True)
@@ -113,7 +114,7 @@ def _notebook(student: str, unit: str, course: Course, record: dict, decisions: 
 def _mark(student: str, exercise, row: dict | None, course: Course, decisions: Decisions) -> Mark:
     of = whole(course.weights.get(exercise.name, exercise.points))
     text, note, points = "", "", None
-    more = {key: str((row or {}).get(key, "")) for key in ("kind", "step", "said", "line")}
+    more = {key: str((row or {}).get(key, "")) for key in ("page", "kind", "step", "said", "line")}
     if row is not None:
         text, points = row["text"], of if row["points"] else 0
         if not points and row.get("follow_on") and decisions.follow_on:

@@ -2,15 +2,30 @@
 
 from __future__ import annotations
 
+import builtins
 import math
+import pkgutil
 import re
 
 import numpy as np
 
 from ..attempt import Attempt
 from ..exercise import Exercise, misshapen
+from ..plain import in_plain_words
 
 LARGEST = 2000  # numbers in one answer
+
+# What `_failure` writes, and what errors say that can be told: next to nothing of an input fits into it.
+_FAILED = re.compile(r"((?:.*?: )??)(raised|not done:) (.*)", re.DOTALL)
+_LOCKED = re.compile(r"your function calls coursekit's own ([\w.]+); write it yourself")
+_TOLD = re.compile(
+    r"the function returns None|\d things are expected|the answer has \d{1,7} numbers|"
+    r"the answer has dtype (?:object|complex\d+|<U\d{1,3}); real numbers are expected|"
+    r"(?:float )?division by zero|math domain error|maximum recursion depth exceeded|"
+    r"name '(\w+)' is not defined|No module named '([\w.]+)'|"
+    r"cannot access local variable '(\w+)' where it is not associated with a value|"
+    r"(\w+)\(\) takes \d\d? positional arguments? but \d\d? (?:was|were) given"
+)
 
 
 def failed_line(reply: dict) -> int:
@@ -25,7 +40,7 @@ def decode(reply: dict, exercise: Exercise, count: int) -> list[Attempt]:
         raise ValueError("the notebook defines no such function")
     answers = reply.get("answers")
     if not isinstance(answers, list) or len(answers) != count:
-        raise ValueError("the reply is malformed")
+        raise ValueError("what came back cannot be read")
     return [_decode_one(one, exercise) for one in answers]
 
 
@@ -36,9 +51,9 @@ def _decode_one(one, exercise: Exercise) -> Attempt:
         parts = tuple(_array(part) for part in one["parts"])
         changed = one["changed"] if one["changed"] in exercise.arguments else ""
     except (TypeError, KeyError, ValueError, OverflowError, AttributeError, RecursionError):
-        return Attempt(fault="error", text="the reply is malformed")
+        return Attempt(fault="error", text="what came back cannot be read")
     if len(parts) != len(exercise.shapes):
-        return Attempt(fault="error", text="the reply is malformed")
+        return Attempt(fault="error", text="what came back cannot be read")
     text = misshapen(exercise, list(parts))
     return Attempt(parts, "misfit" if text else "", text, changed=changed)
 
@@ -64,3 +79,41 @@ def clean(text: str) -> str:
     """One printable line, in which no number with a decimal point is left: it might be a hidden input."""
     text = re.sub(r"[-+]?\d+\.\d*(e[-+]?\d+)?", "…", text[:1000])  # of a million digits it takes hours
     return "".join(c if c.isprintable() else " " for c in text)[:240]
+
+
+def for_students(text: str, sources: list[str]) -> str:
+    """A verdict as its student reads it: of an error's own text nothing that could carry hidden inputs out.
+
+    Its kind, if it is one of Python's; what it means, in words of ours; a name, if it stands in the notebook.
+
+    >>> for_students("raised NameError: name 'lenght' is not defined", ["return lenght * 2"])
+    "raised NameError: name 'lenght' is not defined"
+    >>> for_students("where q is 0: raised ValueError: 3ff0a1", ["def fk(q): ..."]).partition(" (")[0]
+    'where q is 0: raised ValueError'
+    """
+    found = _FAILED.fullmatch(text)
+    if found is None:
+        return text
+    where, what, rest = found.groups()
+    if what != "raised":
+        locked = _LOCKED.fullmatch(rest)
+        return text if locked and _is_ours(locked[1]) else f"{where}{OURS}"
+    kind, _, said = rest.partition(": ")
+    if kind != "LinAlgError" and not isinstance(getattr(builtins, kind, None), type):
+        return f"{where}raised an error of its own {UNTOLD}"
+    told = _TOLD.fullmatch(said)
+    if told and all(any(name in x for x in sources) for name in filter(None, told.groups())):
+        return text
+    plain = in_plain_words(said)
+    return f"{where}raised {kind}: {plain}" if plain else f"{where}raised {kind} {UNTOLD}"
+
+
+UNTOLD = "(its message could tell a hidden input, and is not shown: try inputs of your own)"
+OURS = "not done: your function calls something of coursekit's own; write it yourself"
+
+
+def _is_ours(name: str) -> bool:
+    try:
+        return bool(pkgutil.resolve_name(f"coursekit.kinematics.{name}"))
+    except (ImportError, AttributeError, ValueError):
+        return False

@@ -112,7 +112,7 @@ def _table(nb: Notebook) -> str:
 
 def _row(mark: Mark) -> str:
     points = "not graded" if mark.points is None else f"{whole(mark.points)} of {whole(mark.of)}"
-    said = [mark.text, mark.line and f"In your code: {mark.line}", mark.note]
+    said = [mark.page or mark.text, mark.line and f"In your code: {mark.line}", mark.note]
     if mark.points is not None and not any(said):
         said = ["right"]
     feedback = "<br>".join(text(one) for one in said if one)

@@ -33,7 +33,7 @@ from .box import BoxLost, Limits, bubblewrap
 from .clinic import Clinic
 from .handed_out import handed_out
 from .locked import locked_files, write_files
-from .reply import clean
+from .reply import clean, for_students
 from .student import Student
 
 
@@ -112,6 +112,8 @@ def grade(job: dict, libraries: _Libraries) -> dict:
             found = verdict(exercise, examples, attempts)
             row |= {"text": _told(found), "points": exercise.points if found.right else 0}
             row |= {"kind": found.kind, "step": found.step, "said": found.say}
+            if found.kind == "error":
+                row["page"] = for_students(row["text"], sources)
         for exercise, earlier in follow_on.candidates(course, job["unit"], result, sources):
             examples = _examples(course, exercise, job["seed"], job["unit"], arm)
             can = robots_can(course, job["unit"], examples)

@@ -171,18 +171,17 @@ def one(function: Callable, call: list, request: dict) -> dict:
 
     try:
         given = [thaw(x) for x in call]
-        before = [copy.deepcopy(x) if isinstance(x, (np.ndarray, list)) else None for x in given]
         value = function(*given)
         several = request["several"]
         if several and (not isinstance(value, (tuple, list)) or len(value) != several):
             raise TypeError(f"{several} things are expected")
         parts = [numbers(x) for x in (value if several else [value])]
-        changed = [
+        changed = (
             name
-            for name, a, b in zip(request["arguments"], before, given, strict=False)
-            if a is not None and not np.array_equal(a, b)
-        ]
-        return {"parts": parts, "changed": (changed or [""])[0]}
+            for name, x, was in zip(request["arguments"], given, call, strict=False)
+            if isinstance(was, list) and (x.tolist() if isinstance(x, np.ndarray) else x) != was
+        )
+        return {"parts": parts, "changed": next(changed, "")}
     except Late:
         raise
     except BaseException as error:
@@ -201,7 +200,7 @@ def thaw(x: Any) -> Any:
         return robot if what == "robot" else robot.fk
     if isinstance(x, list):
         array = np.array(x)
-        return array if array.dtype.kind in "if" else x
+        return array if array.dtype.kind in "if" else copy.deepcopy(x)
     return x
 
 
