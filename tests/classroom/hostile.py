@@ -220,6 +220,14 @@ for line in get_ipython().history_manager.get_range():
 """,
 )
 cell_kind("a_million_lines", "x = 1\n" * 1_000_000)
+
+
+@kind(NOTHING, "takes more than 6 s")
+def a_line_that_takes_hours_to_read(notebook):
+    """For Python's tokenizer each of the spaces is an error of its own."""
+    return with_cell(notebook, "x" + " " * 190_000 + "!")
+
+
 cell_kind("exit_in_a_cell", "exit()")
 cell_kind("help_in_a_cell", "help(np.cos)\nquit()")
 cell_kind("a_null_byte", "x = 1\x00")

@@ -19,10 +19,12 @@ from .student import Student
 
 
 def candidates(
-    course: Course, unit: str, result: dict[str, dict], sources: list[str]
+    course: Course, unit: str, result: dict[str, dict], names: dict[str, set[str]]
 ) -> list[tuple[Exercise, list[str]]]:
-    """Wrong exercises that call wrong earlier ones, and which, in the order of the notebook."""
-    names = uses(sources)
+    """Wrong exercises that call wrong earlier ones, and which, in the order of the notebook.
+
+    names : what each of the student's functions `uses`
+    """
     found, wrong = [], list[str]()
     for exercise in course.exercises(unit):
         row = result[exercise.name]

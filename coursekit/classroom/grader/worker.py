@@ -12,10 +12,12 @@ import contextlib
 import json
 import os
 import shutil
+import signal
 import tempfile
 import threading
 import time
 import zlib
+from collections.abc import Iterator
 from dataclasses import asdict
 from functools import cache
 from pathlib import Path
@@ -55,6 +57,32 @@ def main() -> None:
                 data = data[os.write(results, data) :]
 
 
+class _Late(BaseException):
+    """The time to read a notebook is over. Not an Exception: IPython's reader catches those."""
+
+
+@contextlib.contextmanager
+def _in_time(seconds: float) -> Iterator[None]:
+    """ValueError if it takes longer: there are texts that Python's own tokenizer would read for hours."""
+
+    def ring(*_: object) -> None:
+        raise _Late
+
+    if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGALRM, ring)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    except _Late:
+        text = f"not a readable notebook (to read its code takes more than {seconds:g} s): mind long lines"
+        raise ValueError(text) from None
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
 class _Libraries:
     """Locked copies of the library, written once each, and the clinic's."""
 
@@ -85,7 +113,9 @@ def grade(job: dict, libraries: _Libraries) -> dict:
     result = {e.name: {"points": 0, "of": e.points, "text": ""} for e in exercises}
     data = base64.b64decode(job["notebook"])
     try:
-        sources, others = cells.sources(data)
+        with _in_time(limits.cell):
+            sources, others = cells.sources(data)
+            names = follow_on.uses(sources)
     except ValueError as error:
         unreadable = {name: {**row, "text": str(error)} for name, row in result.items()}
         return {"exercises": unreadable, "notes": [str(error)]}
@@ -113,8 +143,8 @@ def grade(job: dict, libraries: _Libraries) -> dict:
             row |= {"text": _told(found), "points": exercise.points if found.right else 0}
             row |= {"kind": found.kind, "step": found.step, "said": found.say}
             if found.kind == "error":
-                row["page"] = for_students(row["text"], sources)
-        for exercise, earlier in follow_on.candidates(course, job["unit"], result, sources):
+                row["page"] = for_students(_told(found), sources)
+        for exercise, earlier in follow_on.candidates(course, job["unit"], result, names):
             examples = _examples(course, exercise, job["seed"], job["unit"], arm)
             can = robots_can(course, job["unit"], examples)
             if follow_on.is_right(student, course, job["unit"], exercise, earlier, examples, can):
