@@ -5,9 +5,24 @@ from __future__ import annotations
 import ast
 import linecache
 from collections.abc import Callable
-from functools import lru_cache
-from types import CodeType, FrameType
+from functools import lru_cache, partial
+from types import CodeType, FrameType, FunctionType, MethodType
 from typing import Any
+
+
+def own(function: Callable) -> tuple[Callable, tuple]:
+    """The function whose text is the answer, and what it is given before the arguments.
+
+    `functools.partial` of a function gives it what it holds; a method gives its object, and so does an object
+    that is called, of a class written in the notebook.
+    """
+    if isinstance(function, partial) and not function.keywords:
+        inner, before = own(function.func)
+        return inner, (*before, *function.args)
+    if isinstance(function, MethodType):
+        return function.__func__, (function.__self__,)
+    called = type(function).__call__ if callable(function) else None
+    return (called, (function,)) if isinstance(called, FunctionType) else (function, ())
 
 
 def definition(function: Callable) -> ast.FunctionDef | None:

@@ -30,8 +30,9 @@ from .sandbox import TICKS, Sandbox, Stop, Unfit
 from .texts import sentence
 from .two import two_edits
 
-BUDGET = 600_000  # executed lines, of the student's and of what they call
-IN_A_HELPER = 200_000  # of them, for edits of each of the student's own functions that it calls
+BUDGET = 2_500_000  # executed lines, of the student's and of what they call
+TRIAL = 100  # of them: what a trial costs beside its call
+IN_A_HELPER = 600_000  # of them, for edits of each of the student's own functions that it calls
 ONE = 10_000  # of them in a single trial, whose loop may not end any more
 SECONDS = 10.0  # of the processor: a backstop, where an edit makes work what did nothing before
 
@@ -61,7 +62,7 @@ def repair(exercise: Exercise, function: Callable, examples: list, cost: int) ->
         except Unfit:
             return ""
         if hits := search.hits():
-            return _told(search, hits)
+            return _told(search, hits, search.owner())
         return _in_a_helper(search) or two_edits(search)
 
 
@@ -72,7 +73,7 @@ def _in_a_helper(search: _Search) -> str:
         search.turn_to(name)
         search.left = IN_A_HELPER // search.cost
         if hits := search.hits():
-            found.append(_told(search, hits, f" of `{name}`"))
+            found.append(_told(search, hits, f" of `{search.tree.name}`"))
     search.turn_to(search.box.whole)
     return found[0] if len(found) == 1 else ""
 
@@ -96,8 +97,8 @@ class _Search:
     )
 
     def __init__(self, exercise: Exercise, function: Callable, examples: list, cost: int) -> None:
-        self.exercise, self.examples, self.cost = exercise, examples, cost
-        self.left = max(1, BUDGET // cost)
+        self.exercise, self.examples, self.cost = exercise, examples, cost + TRIAL
+        self.left = max(1, BUDGET // self.cost)
         self.end = time.process_time() + SECONDS
         self.box = Sandbox(function)
         rounds = [self._rounds(self.box.compile(), example) for example in examples]
@@ -115,6 +116,10 @@ class _Search:
         self.tree = self.box.turn_to(name)
         self.first = self.tree.lineno
         self.body = self.tree.body[0].lineno - self.first + 1  # 1 where all stands in the line of the `def`
+
+    def owner(self) -> str:
+        """Whose lines are counted, where it is not the function that was asked for: a method, say."""
+        return "" if self.tree.name == self.exercise.name else f" of `{self.tree.name}`"
 
     def _rounds(self, function: Callable, example) -> int:
         """How many rounds of loops the function itself takes."""

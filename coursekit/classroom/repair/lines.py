@@ -72,7 +72,8 @@ def _exchanges_in(statement: ast.stmt) -> Iterator[LineEdit]:
 def _edits_of_body(body: list) -> Iterator[LineEdit]:
     real = [i for i, s in enumerate(body) if not is_tick(s) and not is_docstring(s)]
     for i, j in itertools.pairwise(real):
-        yield LineEdit("lines", body[i].lineno, _exchange(body, i, j))
+        if not isinstance(body[j], ast.Return):  # behind it a line would only be left out, as below
+            yield LineEdit("lines", body[i].lineno, _exchange(body, i, j))
     for i in real:
         if len(real) > 1 and not isinstance(body[i], ast.FunctionDef):
             yield LineEdit("line", body[i].lineno, _replace(body, i, []))

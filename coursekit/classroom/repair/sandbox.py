@@ -9,12 +9,13 @@ from __future__ import annotations
 import ast
 import copy
 from collections.abc import Callable
-from types import CodeType, FunctionType, ModuleType
+from functools import partial
+from types import CodeType, FunctionType, ModuleType, SimpleNamespace
 from typing import Any
 
 import numpy as np
 
-from ..source import definition
+from ..source import definition, own
 from .finite import in_a_trial
 
 TICK = "__tick"
@@ -50,7 +51,9 @@ class Sandbox:
         self.ticks, self.most = 0, TICKS
         self.names: dict[str, Any] = {TICK: self._tick, "print": lambda *a, **k: None, "__name__": "trial"}
         self.trees: dict[str, tuple[ast.FunctionDef, tuple | None]] = {}  # of the functions that it calls
+        function, before = own(function)
         tree = self._copy(function)
+        self.before = tuple(self._given(x) for x in before)
         self.whole = self.name = tree.name
         self.trees[self.whole] = tree, getattr(function, "__defaults__", None)
         self.compile()
@@ -61,11 +64,18 @@ class Sandbox:
         self.name = name
         return self.trees[name][0]
 
-    def compile(self) -> FunctionType:
+    def compile(self) -> Callable:
         """The function as the tree stands now that may be edited."""
         tree, defaults = self.trees[self.name]
         self.names[self.name] = self._made(tree, self.name, defaults)  # it may call itself
-        return self.names[self.whole]
+        whole = self.names[self.whole]
+        return partial(whole, *self.before) if self.before else whole
+
+    def _given(self, value: Any) -> Any:
+        """A copy of what comes before the arguments: of an object, of what it holds."""
+        if hasattr(value, "__dict__") and not callable(getattr(value, "__array__", None)):
+            return SimpleNamespace(**{name: self._copied(name, held) for name, held in vars(value).items()})
+        return self._copied("what it is given", value)
 
     def _made(self, tree: ast.FunctionDef, name: str, defaults: tuple | None) -> FunctionType:
         code = compile(ast.Module([tree], []), "<trial>", "exec")
@@ -80,8 +90,10 @@ class Sandbox:
     def _copy(self, function: Callable) -> ast.FunctionDef:
         """The function's tree, with a counter in its loops; all that it refers to goes into the names."""
         tree = definition(function)
-        if tree is None or tree.decorator_list:
+        if tree is None:
             raise Unfit("no text of it")
+        tree.lineno = min([tree.lineno, *(node.lineno for node in tree.decorator_list)])  # as Python counts
+        tree.decorator_list = []  # what they made of it is another function: this one stands within it
         tree.returns = None
         tree.args.defaults, tree.args.kw_defaults = [ast.Constant(None) for _ in tree.args.defaults], []
         for argument in ast.walk(tree.args):
@@ -127,7 +139,7 @@ class Sandbox:
                 return copy.deepcopy(value)
             except Exception:
                 raise Unfit(f"{name} cannot be copied") from None
-        module = getattr(value, "__module__", "") or ""
+        module = str(getattr(value, "__module__", ""))
         if isinstance(value, FunctionType) and not module.startswith(("numpy", "coursekit.kinematics")):
             return self._helper(name, value)
         if callable(value) and not module.startswith(

@@ -65,6 +65,7 @@ EVERY = {
     "name": "every `{}`: another variable belongs there",
     "missing": "`{}` is missing at several places",
 }
+WHOLE = {"+": "sum", "-": "difference", "*": "product", "@": "product", "/": "fraction", "**": "power"}
 
 
 def sentence(kinds: list[tuple[str, str]], lines: list[int], body: int = 2, owner: str = "") -> str:
@@ -100,6 +101,7 @@ def _what(kinds: list[tuple[str, str]]) -> str:
     kinds = [one for one in kinds if one[0] not in plain]
     if len({kind for kind, _ in kinds}) > 2:  # of a rotation the inverse is the transpose: once is enough
         kinds = [one for one in kinds if one[0] != "inverse" or ("transposed", one[1]) not in kinds]
+    kinds = [one for one in kinds if one[0] == "whole_numbers"] or kinds  # most edits make decimals of them
     texts = list(dict.fromkeys(_one(kind, what) for kind, what in kinds))
     if len(texts) > 2:
         return TEXTS["somewhere"]
@@ -111,5 +113,6 @@ def _one(kind: str, what: str) -> str:
         kind = kind.removeprefix("every_")
         if kind in EVERY:
             return EVERY[kind].format(what)
-        return f"{TEXTS[kind].format(what)}, wherever `{what}` stands"
+        where = f"in every {WHOLE[what]}" if what in WHOLE else f"wherever `{what}` stands"
+        return f"{TEXTS[kind].format(what)}, {where}"
     return TEXTS[kind].format(what)

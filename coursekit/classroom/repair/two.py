@@ -23,7 +23,7 @@ from .texts import sentence
 if TYPE_CHECKING:
     from . import _Hit, _Search
 
-BUDGET = 100_000  # executed lines, for each of the two steps
+BUDGET = 300_000  # executed lines, for each of the two steps
 FIRST = 4  # edits that stand, one after the other: those that make most of the answers right
 
 
@@ -50,7 +50,9 @@ def two_edits(search: _Search) -> str:
 
 def _text(search: _Search, hits: list[_Hit]) -> str:
     line = hits[0].line and hits[0].line - search.first + 1
-    return sentence(list(dict.fromkeys((hit.kind, hit.what) for hit in hits)), [line], search.body)
+    return sentence(
+        list(dict.fromkeys((hit.kind, hit.what) for hit in hits)), [line], search.body, search.owner()
+    )
 
 
 def _both(search: _Search, ones: list[_Hit], others: list[_Hit]) -> str:

@@ -23,11 +23,12 @@ def _halves_exchanged(x):
 
 
 # (kind, what is done, what must not do as well). A copy mends what is shared, and then its transpose does so;
+# decimals mend whole numbers, and then an inverse does so, which holds them;
 # where any other length would do, neither a unit vector nor millimetres are the matter.
 _DONE: tuple[tuple[str, Callable, Callable | None], ...] = (
     ("sign", lambda x: -x, None),
     ("transposed", lambda x: np.swapaxes(x, -1, -2), np.array),
-    ("inverse", np.linalg.inv, np.array),
+    ("inverse", np.linalg.inv, lambda x: np.array(x, float)),
     ("reversed", lambda x: x[::-1], None),
     ("half", lambda x: x / 2, None),
     ("half", lambda x: 2 * x, None),
