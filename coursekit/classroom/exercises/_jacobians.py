@@ -28,6 +28,11 @@ def screws(rng, n=None):
     return np.column_stack([w, np.cross(q, w)]).T, angles(rng, n)
 
 
+def screws_turned(rng):
+    S, theta = screws(rng, 4)
+    return S, theta + 2 * np.pi
+
+
 def screws_with_slide(rng):
     S, theta = screws(rng, 5)
     S[:, 2] = [0, 0, 0, *axes(rng, 1)[0]]
@@ -130,6 +135,11 @@ def whole_step(rng):
 
 def planar(rng):
     return angles(rng, 2), rng.choice([-1, 1], 2) * rng.uniform(0.4, 2.0, 2), rng.uniform(0.2, 0.8, 2)
+
+
+def planar_turned(rng):
+    theta, rate, lengths = planar(rng)
+    return theta + 2 * np.pi, rate, lengths
 
 
 def straight(rng):

@@ -38,6 +38,7 @@ ROWS = (
     Edge("where a is negative", row_with(a=-0.3)),
     Edge("where alpha and d are tiny", row_with(alpha=2e-4, d=-3e-4)),
     Edge("for whole numbers", lambda rng: (1, 2, -1, 3)),
+    Edge("for angles of more than a turn", row_with(alpha=-7.0, theta=8.0)),
 )
 
 
@@ -63,6 +64,11 @@ def whole_pose(x, y, z):
 def dh_arm(rng, n=None):
     n = n or int(rng.integers(2, 6))
     return rows(rng, n), angles(rng, n), pose(rng), pose(rng)
+
+
+def dh_arm_turned(rng):
+    rows, theta, base, tool = dh_arm(rng)
+    return rows, theta + 2 * np.pi, base, tool
 
 
 def dh_arm_bare(rng):
@@ -138,6 +144,7 @@ SCREWS = (
     Edge("where theta is 360 deg", by(lambda rng: hinge(rng, 0.1), 2 * np.pi)),
     Edge("where theta is negative", by(hinge, -0.8)),
     Edge("for whole numbers", lambda rng: (np.array([0, 0, 1, 2, -1, 0]), 2)),
+    Edge("where theta is more than a turn", by(lambda rng: hinge(rng, 0.1), 8.0)),
 )
 
 
@@ -146,6 +153,11 @@ def poe_arm(rng, n=None, screw=screw):
     n = n or int(rng.integers(2, 6))
     S = np.column_stack([screw(rng) for _ in range(n)])
     return S, pose(rng), np.where(S[:3].any(axis=0), 1, 0.2) * angles(rng, n)
+
+
+def poe_arm_turned(rng):
+    S, M, theta = poe_arm(rng, 3, hinge)
+    return S, M, theta + 2 * np.pi
 
 
 def poe_arm_at_zero(rng):

@@ -161,6 +161,7 @@ JOINTS = (
     Edge("for a slide whose offset d is zero", _joint("prismatic", d=0.0)),
     Edge("for a hinge whose offset is zero", _joint("revolute", theta=0.0)),
     Edge("for whole numbers", lambda rng: (np.array([1, 2, -1, 3]), 0.5, "prismatic")),
+    Edge("for a hinge that has turned more than once", lambda rng: (np.array(dh_row(rng)), 8.0, "revolute")),
 )
 
 
@@ -192,7 +193,7 @@ JOINT_TRANSFORM = Exercise(
     blocks=POSE,
     residual=_frame_gap,
     unit="m, rad",
-    samples=3,
+    samples=2,
     laws=(("a joint that moves on by q turns about, or slides along, the old z axis", _one_more_step),),
     hints=(
         Hint("always_turns", "a slide does not turn: its joint value is added to d"),

@@ -41,6 +41,11 @@ def fine(rng):
     return matrix(rng, [2, 1.5, 1, 0.3, 1e-7, 1e-14]), 1e-10
 
 
+def finest(rng):
+    """Two just above the limit, two below: squares of them are lost in the rounding of the largest's."""
+    return matrix(rng, [2, 1.5, 1e-9, 8e-10, 1e-11, 5e-12]), 1e-10
+
+
 def nilpotent(rng):
     """Nor does the diagonal of a QR of it, or of its transpose, tell its rank."""
     above, below = (np.diag([a, b], side) for side, (a, b) in ((1, rng.uniform(0.5, 2, 2)), (-1, (1.2, 0.7))))

@@ -77,7 +77,7 @@ EXERCISES = [
         blocks=FRAME,
         residual=gaps.dh_gap,
         unit="m, rad",
-        samples=3,
+        samples=2,
         hints=(
             Hint(
                 "alpha_for_a",
@@ -110,7 +110,7 @@ EXERCISES = [
         blocks=FRAME,
         residual=gaps.mdh_gap,
         unit="m, rad",
-        samples=3,
+        samples=2,
         hints=(
             Hint("plus_sin", "look at entry (1, 2): a turn about z has -sin(theta) there"),
             Hint("no_a", "the last column begins with a_{i-1}: the step along x is missing"),
@@ -137,6 +137,7 @@ EXERCISES = [
             Edge("for an arm with seven joints", lambda rng: inputs.dh_arm(rng, 7)),
             Edge("for the KR6 of this notebook", inputs.dh_kr6),
             Edge("for whole numbers", inputs.whole_dh_arm),
+            Edge("where joints have turned more than once", inputs.dh_arm_turned),
         ),
         usual="for other arms",
         blocks=POSE,
@@ -146,7 +147,7 @@ EXERCISES = [
             ("the base comes first: it multiplies the pose from the left", _base_first),
         ),
         unit="m, rad",
-        samples=3,
+        samples=2,
         hints=(
             Hint("no_offset", "theta alone is not the angle of a row: add the offset in its fourth column"),
             Hint("no_tool", "the tool is missing: the last factor takes frame n to the tool"),
@@ -185,7 +186,7 @@ EXERCISES = [
             ("the motion by 2 theta is the motion by theta, done twice", _twice_is_double),
         ),
         unit="m, rad",
-        samples=3,
+        samples=2,
         hints=(
             Hint("v_first", "S is (omega; v): you took its first three numbers for v"),
             Hint("theta_v", "theta v is the translation of a slide; a hinge moves the origin along an arc"),
@@ -227,13 +228,14 @@ EXERCISES = [
             Edge("for the KR6 of this notebook", inputs.poe_kr6),
             Edge("for an arm with seven joints", lambda rng: inputs.poe_arm(rng, 7)),
             Edge("for whole numbers", inputs.whole_poe_arm),
+            Edge("where joints have turned more than once", inputs.poe_arm_turned),
         ),
         usual="for other arms",
         blocks=POSE,
         residual=gaps.tool_gap,
         laws=(("with every joint at zero the tool is at its home pose M", _home_at_zero),),
         unit="m, rad",
-        samples=3,
+        samples=2,
         hints=(
             Hint("no_M", "at theta = 0 your tool is at the origin: the home pose M is missing"),
             Hint("M_left", "M on the left belongs to body screws; these are space screws"),

@@ -83,7 +83,7 @@ def _out_of_line(args, value, right):
     gap = abs(a3 * np.cos(value) - d4 * np.sin(value))
     if not np.isfinite(gap):
         return ""
-    if gap < NONE:
+    if gap < NONE and np.cos(value - right) < 0:
         return "the wrist is in line with axes 2 and 3, but between them: the arm is folded, not stretched"
     return f"at your angle the wrist centre is {mm(gap)} away from the line through axes 2 and 3"
 
@@ -288,8 +288,8 @@ EXERCISES = [
             Hint("one_sign", "look at the signs of d4 cos(theta_3): they differ in the two rows"),
             Hint(
                 "transposed",
-                "your matrix is transposed, the minus of d4 cos(theta_3) stands lower left; or you"
-                " multiplied, A @ b, where A x = b is to be solved",
+                "the part with d4 cos(theta_3) turns the wrong way: in the matrix its minus stands lower"
+                " left; or you multiplied, A @ b, where A x = b is to be solved",
             ),
             Hint("a1_twice", "a1 is taken off twice: r begins at axis 1, r - a1 at the shoulder"),
             Hint(
@@ -311,7 +311,7 @@ EXERCISES = [
         draw=_rank.nearly_singular,
         shape=(),
         tol=0.1,
-        samples=4,
+        samples=2,
         edges=(
             Edge("where two motions are lost", lambda rng: _rank.nearly_singular(rng, lost=2)),
             Edge("where one singular value is small", lambda rng: _rank.nearly_singular(rng, small=True)),
@@ -322,6 +322,7 @@ EXERCISES = [
             Edge("for tol = 1", _rank.limit_met),
             Edge("for tol = 0.2", _rank.coarse),
             Edge("for tol = 1e-10", _rank.fine),
+            Edge("for singular values close to tol = 1e-10", _rank.finest, 2),
             Edge("where all eigenvalues of J are 0", _rank.nilpotent),
             Edge("for whole numbers", _rank.whole),
         ),

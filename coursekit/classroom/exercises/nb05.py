@@ -81,7 +81,7 @@ EXERCISES = [
         unit="1, m",
         laws=(("turning the last joint moves no joint axis: all columns must stay", _own_turn),),
         usual="for hinges at ordinary angles",
-        samples=3,
+        samples=2,
         edges=(
             Edge(
                 "for the KR10 at right angles",
@@ -93,6 +93,7 @@ EXERCISES = [
             Edge("for an arm with a slide", draws.screws_with_slide),
             Edge("for screws with pitch", draws.screws_with_pitch),
             Edge("for whole numbers", draws.whole_screws),
+            Edge("where joints have turned more than once", draws.screws_turned),
         ),
         residual=residuals.axis_missed,
         hints=(
@@ -250,7 +251,7 @@ EXERCISES = [
         shape=((2,), (2,)),
         unit="m/s",
         laws=(("a velocity has the same length in every frame", _same_length),),
-        samples=3,
+        samples=2,
         usual="for ordinary angles and rates",
         blocks=(Block("v_B"), Block("v_E", part=1)),
         edges=(
@@ -266,6 +267,7 @@ EXERCISES = [
                 lambda rng: (draws.angles(rng, 2), [0, rng.uniform(0.5, 2)], [0.6, 0.3]),
             ),
             Edge("for whole numbers", draws.whole_planar),
+            Edge("where joints have turned more than once", draws.planar_turned),
         ),
         residual=residuals.planar_velocity_missed,
         hints=(
@@ -294,7 +296,7 @@ EXERCISES = [
         tol=1e-8,
         unit="1, m",
         laws=(("the last row of a pose never changes: that of T-dot is 0 0 0 0", _no_last_row),),
-        samples=3,
+        samples=2,
         usual="for an ordinary hinge",
         blocks=(
             Block("T-dot"),
@@ -308,6 +310,7 @@ EXERCISES = [
             Edge("for a slide", draws.slide),
             Edge("for a screw with pitch", draws.screw_with_pitch),
             Edge("for whole numbers", draws.whole_factor),
+            Edge("where theta is more than a turn", draws.factor(angle=8.0)),
         ),
         residual=residuals.rate_missed,
         hints=(
