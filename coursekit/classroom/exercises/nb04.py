@@ -311,7 +311,7 @@ EXERCISES = [
         draw=_rank.nearly_singular,
         shape=(),
         tol=0.1,
-        samples=2,
+        samples=1,
         edges=(
             Edge("where two motions are lost", lambda rng: _rank.nearly_singular(rng, lost=2)),
             Edge("where one singular value is small", lambda rng: _rank.nearly_singular(rng, small=True)),
@@ -320,7 +320,7 @@ EXERCISES = [
             Edge("for seven joints", lambda rng: _rank.nearly_singular(rng, columns=7)),
             Edge("for two joints", lambda rng: _rank.nearly_singular(rng, lost=0, columns=2)),
             Edge("for tol = 1", _rank.limit_met),
-            Edge("for tol = 0.2", _rank.coarse),
+            Edge("for tol = 0.2", _rank.coarse, 2),
             Edge("for tol = 1e-10", _rank.fine),
             Edge("for singular values close to tol = 1e-10", _rank.finest, 2),
             Edge("where all eigenvalues of J are 0", _rank.nilpotent),
