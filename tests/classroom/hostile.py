@@ -357,7 +357,7 @@ def bytes_kind(name, data: bytes, feedback="not a readable notebook"):
 
 
 bytes_kind("empty_file", b"")
-bytes_kind("not_json", b"{'cells': [")
+bytes_kind("not_json", b"{'cells': [", "damaged, or cut off")
 bytes_kind("not_utf8", b'{"cells": ["\xa7"]}', "its letters are not UTF-8")
 bytes_kind("a_list", b"[1, 2]")
 bytes_kind("cells_of_nonsense", b'{"cells": [1, null, {"cell_type": "code"}]}')

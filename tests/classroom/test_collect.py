@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import os
+import warnings
 import zipfile
 from pathlib import Path
 
@@ -147,6 +148,16 @@ def test_a_zip_of_each_student_and_what_the_site_writes(tmp_path, people):
     }
     collect.collect(tree(tmp_path / "in", files), tmp_path / "out", people)
     assert collected(tmp_path / "out") == {f"s001/{DH}": notebook("ann"), f"s003/{DH}": own}
+
+
+def test_of_one_name_twice_in_a_zip_the_last_counts_and_no_time_is_invented(tmp_path):
+    data = io.BytesIO()
+    with zipfile.ZipFile(data, "w") as archive, warnings.catch_warnings(action="ignore"):
+        for place, text in ((DH, "first"), (DH, "last"), (f"old/{DH}", "beside")):
+            archive.writestr(zipfile.ZipInfo(place), notebook(text))
+    said = collect.collect(tree(tmp_path / "in", {"ann.zip": data.getvalue()}), tmp_path / "out")
+    assert collected(tmp_path / "out") == {f"ann/{DH}": notebook("last")}
+    assert said.count("has the same time, and counts") == 2
 
 
 def test_nobody_hands_in_for_a_classmate(tmp_path, people):

@@ -43,7 +43,8 @@ def sources(data: bytes) -> tuple[list[str], list[str]]:
             "not a readable notebook (its letters are not UTF-8): save it in JupyterLab"
         ) from None
     except (ValueError, KeyError, TypeError, RecursionError, AttributeError) as error:
-        raise ValueError(f"not a readable notebook ({type(error).__name__})") from None
+        why = "damaged, or cut off" if isinstance(error, ValueError) else "JupyterLab writes others"
+        raise ValueError(f"not a readable notebook ({why}): save it in JupyterLab") from None
     plain, left = [], EFFORT
     for text in filter(str.strip, code):
         if len(text) <= LONGEST:

@@ -114,12 +114,14 @@ def _choose(
         name, copy = notebook
         order = (said.attempt, said.time or found.time, copy)
         best = chosen.get((student, name))
-        if best is None or order > best[0]:
+        same = best is not None and order == best[0]
+        if best is None or order > best[0] or (same and found.parts == best[1].parts):  # as unzip does
             chosen[student, name] = (order, found, said)
         if best is not None:
             kept = chosen[student, name][1]
             loser = found if kept is best[1] else best[1]
-            older.append(f"{loser.place}: {kept.place} is later")
+            why = "has the same time, and counts" if same else "is later"
+            older.append(f"{loser.place}: {kept.place} {why}")
     return chosen, older
 
 
