@@ -23,7 +23,7 @@ from .texts import sentence
 if TYPE_CHECKING:
     from . import _Hit, _Search
 
-BUDGET = 300_000  # executed lines, for each of the two steps
+BUDGET = 700_000  # executed lines, for each of the two steps
 FIRST = 4  # edits that stand, one after the other: those that make most of the answers right
 
 
