@@ -14,6 +14,8 @@ from ..exercise import Exercise, misshapen
 from ..plain import in_plain_words
 
 LARGEST = 2000  # numbers in one answer
+UNTOLD = "(its message could tell a hidden input, and is not shown: try inputs of your own)"
+OURS = "not done: your function calls something of coursekit's own; write it yourself"
 
 # What `_failure` writes, and what errors say that can be told: next to nothing of an input fits into it.
 _FAILED = re.compile(r"((?:.*?: )??)(raised|not done:) (.*)", re.DOTALL)
@@ -106,10 +108,6 @@ def for_students(text: str, sources: list[str]) -> str:
         return text
     plain = in_plain_words(said)
     return f"{where}raised {kind}: {plain}" if plain else f"{where}raised {kind} {UNTOLD}"
-
-
-UNTOLD = "(its message could tell a hidden input, and is not shown: try inputs of your own)"
-OURS = "not done: your function calls something of coursekit's own; write it yourself"
 
 
 def _is_ours(name: str) -> bool:
