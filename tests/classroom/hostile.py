@@ -880,7 +880,7 @@ fk_kind(
 )
 TELLS = {
     "in_hexadecimal": "raise ValueError(theta.tobytes().hex())",
-    "in_one_number": "raise IndexError(int(abs(theta[0]) * 10**15))",
+    "in_one_number": "raise IndexError(int((1 + abs(theta[0])) * 10**15))",
     "as_an_error": "raise type('E' + theta.tobytes().hex(), (Exception,), {})('name')",
     "as_a_name": "raise NameError(f\"name 'x{theta.tobytes().hex()}' is not defined\")",
     "as_a_function_of_the_library": "getattr(robots, 'x' + theta.tobytes().hex())()",
