@@ -1,7 +1,7 @@
 """What the student's functions draw in the explorers of notebooks 03 to 06, and what the text says of them.
 
 Each class is a part of one explorer, which it tells how to draw a function (see `Explorer`); `_more` are the
-controls that a function brings along.
+buttons that a function brings along, `_is_ready` says when they have something to do.
 """
 
 from .inverse import Inverse
