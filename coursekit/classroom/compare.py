@@ -39,8 +39,6 @@ def mask(kind: str, answer: np.ndarray, right: np.ndarray, tol: ArrayLike) -> np
     if kind == "columns_up_to_sign":
         signs = np.where(np.sum(answer * right, axis=0) < 0, -1.0, 1.0)
         return _near(signs * answer, right, tol)
-    if kind == "set" and answer.ndim == 1:
-        return _rows_in_any_order(answer[:, None], right[:, None], tol)[:, 0]
     if kind == "set":
         return _rows_in_any_order(answer, right, tol)
     return _near(answer, right, tol, cyclic=kind == "angle")
@@ -48,7 +46,12 @@ def mask(kind: str, answer: np.ndarray, right: np.ndarray, tol: ArrayLike) -> np
 
 def same(kind: str, answer: np.ndarray, right: np.ndarray, tol: ArrayLike) -> bool:
     """Is the whole answer right?"""
-    return answer.shape == right.shape and bool(mask(kind, answer, right, tol).all())
+    if answer.shape != right.shape:
+        return False
+    if kind == "set":  # no row has to be seated that agrees in part only
+        agree = _rows_agree(answer, right, tol).all(axis=-1)
+        return bool(agree.any(axis=1).all()) and len(_pair_up(agree)) == len(agree)
+    return bool(mask(kind, answer, right, tol).all())
 
 
 def _near(answer, right, tol, cyclic=False):
@@ -59,23 +62,30 @@ def _near(answer, right, tol, cyclic=False):
         return (np.abs(gap) <= tol) | (np.isnan(answer) & np.isnan(right)) | (answer == right)
 
 
+def _rows_agree(answer, right, tol):
+    """Entry by entry, every row with every other: (mine, theirs, entries). A number is a row of one."""
+    rows = (len(answer), answer.shape[1] if answer.ndim > 1 else 1)
+    return _near(answer.reshape(rows)[:, None], right.reshape(rows)[None], tol, cyclic=True)
+
+
 def _rows_in_any_order(answer, right, tol):
     """Every row takes the free row of `right` that it agrees with best: whole rows first, then parts."""
-    agree = _near(answer[:, None], right[None], tol, cyclic=True)  # (mine, theirs, entries)
-    found = np.zeros(answer.shape, bool)
+    agree = _rows_agree(answer, right, tol)
+    found = np.zeros((len(answer), agree.shape[2]), bool)
     score = agree.sum(axis=-1)
-    partner = _pair_up([np.flatnonzero(row == answer.shape[1]) for row in score])
+    partner = _pair_up(agree.all(axis=-1))
     free = set(range(len(right))) - set(partner.values())
     for row in np.argsort(-score.max(axis=1, initial=0), kind="stable"):
         if row not in partner:
             partner[row] = max(sorted(free), key=lambda other: score[row, other])
             free.discard(partner[row])
         found[row] = agree[row, partner[row]]
-    return found
+    return found.reshape(answer.shape)
 
 
-def _pair_up(candidates: list) -> dict[int, int]:
-    """{row: its partner}, for as many rows as can have a partner of their own."""
+def _pair_up(agree: np.ndarray) -> dict[int, int]:
+    """{row: its partner}, for as many rows as can have one of their own. agree : (mine, theirs), truths"""
+    candidates = [np.flatnonzero(row) for row in agree]
     taken: dict[int, int] = {}
 
     def seat(row: int, seen: set) -> bool:

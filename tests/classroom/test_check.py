@@ -432,6 +432,18 @@ def test_a_mask_says_which_entries_are_right():
         compare.mask("close", v, s, 1e-6)
 
 
+@pytest.mark.parametrize("shape", [(0,), (4,), (0, 2), (4, 1), (4, 2)], ids=str)
+def test_a_set_is_the_same_where_some_order_makes_every_row_right(shape):
+    """Rows of 0, 1 and 2, of which neighbours agree: who sits first must not keep another from sitting."""
+    rng = np.random.default_rng(3)
+    for _ in range(200):
+        answer, right = rng.integers(3, size=(2, *shape)).astype(float)
+        orders = (answer[list(order)] for order in itertools.permutations(range(len(answer))))
+        some_order = any(np.all(np.abs(one - right) <= 1) for one in orders)
+        assert compare.same("set", answer, right, 1.0) is some_order
+        assert compare.mask("set", answer, right, 1.0).all() == some_order
+
+
 # ---- definitions that make no sense are refused
 
 
