@@ -286,7 +286,7 @@ EXERCISES = [
         blocks=(Block("omega", np.s_[:3]), Block("v", np.s_[3:])),
         residual=_screw_gap,
         hints=(
-            Hint("plus", "v = w x q would be the velocity of q seen from the origin: you need its opposite"),
+            Hint("plus", "v is the velocity at the origin, w x (0 - q): yours has the other sign"),
             Hint("v_first", "rows are (omega; v): the direction comes first"),
             Hint("not_unit", "w may come in any length: scale the direction to length 1 first"),
             Hint("all_scaled", "omega has length 1, not all six numbers: scale w first, then take -w x q"),

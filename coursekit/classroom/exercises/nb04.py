@@ -198,7 +198,7 @@ EXERCISES = [
             Hint("diagonal_sign", "right sign, but the blocks are those on the diagonal: take the others"),
             Hint("sizes", "a block can be singular without being 0: take its determinant, not its size"),
             Hint("arm_only", "this is the arm's block alone: the wrist has its share in det J"),
-            Hint("two_products", "the lower right block counts as 0: the product with its determinant goes"),
+            Hint("two_products", "the lower right block counts as 0: leave out its product"),
             Hint("whole", "that is the determinant of the whole J: use the two 3 x 3 blocks"),
             Hint(
                 "two_rows",
@@ -228,7 +228,7 @@ EXERCISES = [
             Hint("ratio", "this is the ratio of the lengths, not yet an angle"),
             Hint("swapped", "arctan2 takes the leg opposite the angle first: that is a3"),
             Hint("sine", "a3 and d4 are the legs of the triangle; you took d4 for its longest side"),
-            Hint("rounded", "rounded to three digits: near this pose that already costs a singular value"),
+            Hint("rounded", "rounded to three digits: at that angle the arm is not singular yet"),
             Hint("sign", "the forearm must turn the other way to bring the wrist into line"),
         ),
     ),

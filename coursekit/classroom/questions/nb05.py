@@ -167,10 +167,10 @@ QUESTIONS = [
             "rate": int(rng.integers(2, 4)),
             "push": _tenths(rng, 0.3, 0.6),
         },
-        text="A hinge turns at {rate} rad/s, the tool is {r} m from its axis. A slide, square to that, "
-        "pushes at {push} m/s. How fast is the tool, in m/s?",
+        text="A hinge turns at {rate} rad/s, the tool is {r} m from its axis. A slide pushes "
+        "it at right angles to that motion, at {push} m/s. How fast is the tool, in m/s?",
         answer=lambda r, rate, push: float(np.hypot(r * rate, push)),
-        slips={"The two velocities are square to each other.": lambda r, rate, push: r * rate + push},
+        slips={"The two velocities are at right angles.": lambda r, rate, push: r * rate + push},
         tolerance=0.006,
     ),
     Question(

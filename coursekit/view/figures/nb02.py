@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from coursekit.kinematics.robot import Robot
-from coursekit.view.figures import INK, blank, in_space, palette, show
+from coursekit.view.figures import INK, axes_3d, blank, limits_3d, palette, show
 from coursekit.view.figures.side import INTO, OUT_OF, draw_arm, mark_axis, mark_frame, side_view
 
 
@@ -31,7 +31,7 @@ def steps(directions: Sequence[str], P_mm: ArrayLike) -> None:
         if np.linalg.norm(np.subtract(end, start)) > 1:
             style = {"arrowstyle": "-|>", "color": palette("trace"), "lw": 2.2}
             ax.annotate("", end, start, arrowprops=style)
-            name = f"$P_{{{i},{i + 1}}}$" if i < len(directions) else "$P_{6T}$"
+            name = f"$P_{{{i}{i + 1}}}$" if i < len(directions) else "$P_{6T}$"
             beside = (-40, -4) if start[0] == end[0] else (-14, -36 if i == len(directions) else -18)
             middle = np.mean([start, end], axis=0)
             ax.annotate(name, middle, beside, textcoords="offset points", fontsize=11)
@@ -77,7 +77,7 @@ def telescope() -> None:
 def axes_in_space(robot: Robot) -> None:
     """Every joint axis of an arm like the KR6 at zero as an arrow with its number, and the line of links."""
     length = 0.16
-    ax = in_space((7.4, 4.8))
+    (ax,) = axes_3d(1, (7.4, 4.8))
     points = robot.link_frames(np.zeros(robot.n))[:, :3, 3]
     elbow = points[2] + [0, 0, points[3, 2] - points[2, 2]]  # where the forearm begins
     ax.plot(*np.vstack([np.zeros(3), points[:3], elbow, points[3:]]).T, color=INK, lw=4, alpha=0.25)
@@ -86,14 +86,13 @@ def axes_in_space(robot: Robot) -> None:
         start = point + along[i] * w
         ax.quiver(*start, *(length * w), color=palette("axis"), lw=2, arrow_length_ratio=0.25)
         ax.text(
-            *(start + (length + 0.03) * w + [0, 0, 0.02]), f"S{i + 1}", color=palette("axis"), fontsize=11
+            *(start + (length + 0.03) * w + [0.04, 0, 0.02]), f"S{i + 1}", color=palette("axis"), fontsize=11
         )
     for T, letter in ((np.eye(4), "s"), (robot.M, "b")):
         for axis, name in zip(T[:3, :3].T, "xyz", strict=True):
             ax.quiver(*T[:3, 3], *(0.12 * axis), color=palette(name), lw=1.6, arrow_length_ratio=0.25)
         ax.text(*(T[:3, 3] + [0, 0, -0.09]), f"{{{letter}}}", color=INK)
-    ax.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]", xlim=(-0.1, 1.3), ylim=(-0.3, 0.3), zlim=(0, 0.6))
-    ax.set_box_aspect((1.4, 0.6, 0.6), zoom=1.15)
+    limits_3d(ax, [(-0.1, 1.3), (-0.3, 0.3), (0, 0.6)], (-0.2, 0, 0.2, 0.4, 0.6, 0.8, 1, 1.2), "m", zoom=1.15)
     ax.view_init(24, -62)
     show()
 
@@ -105,6 +104,6 @@ def _directions(ax, letters, points):
             mark_axis(ax, f"$h_{i + 1}$", point, INTO)
             continue
         way = np.array({"x": (1, 0), "z": (0, 1)}[letter])
-        above = np.array([0, 110 + 35 * (i - 3)]) if letter == "x" else np.array([-45, 0])
+        above = np.array([0, 110 + 35 * (i - 3)]) if letter == "x" else np.array([-85, 0])
         ax.plot(*np.array([point, point + above]).T, ls=":", lw=1, color=palette("axis"))
         mark_axis(ax, f"$h_{i + 1}$", point + above, way)

@@ -39,7 +39,7 @@ def ellipsoids(robot: Robot, **thetas: ArrayLike) -> None:
         room = 1.1 * max(e.lengths[0] for e in found.values())
         for ax, (name, e) in zip(row, found.items(), strict=True):
             _ellipsoid(ax, e, palette(color))
-            limits_3d(ax, 3 * [(-room, room)], (0.5 if room < 1 else 1) * np.arange(-9, 10), unit)
+            limits_3d(ax, 3 * [(-room, room)], (0.5 if room < 1 else 2) * np.arange(-9, 10), unit)
             ax.set_box_aspect([1, 1, 1], zoom=0.88)
             ax.view_init(16, -72)
             ax.set_title(f"{part}, {name}", fontsize=11, y=0.94)
