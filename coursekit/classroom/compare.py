@@ -85,7 +85,7 @@ def _rows_in_any_order(answer, right, tol):
 
 def _pair_up(agree: np.ndarray) -> dict[int, int]:
     """{row: its partner}, for as many rows as can have one of their own. agree : (mine, theirs), truths"""
-    candidates = [np.flatnonzero(row) for row in agree]
+    candidates = [np.flatnonzero(row).tolist() for row in agree]
     taken: dict[int, int] = {}
 
     def seat(row: int, seen: set) -> bool:

@@ -62,6 +62,20 @@ def test_the_target_and_the_ellipsoid_of_every_named_pose_are_in_the_picture():
     panel.close()
 
 
+def test_a_right_ellipsoid_of_the_student_leaves_the_colour_that_the_switch_names():
+    def ellipsoid(J):
+        U, lengths, _ = np.linalg.svd(J)
+        return lengths, U
+
+    panel = view.explore_jacobians(mine=ellipsoid)
+    bodies = [
+        part for path, parts in panel.scene.parts.items() if path.endswith("/linear/body") for part in parts
+    ]
+    right, mine = (part.opacity for part in bodies)
+    panel.close()
+    assert mine < right / 4, "magenta over teal looks like the violet of the other one"
+
+
 def test_the_switches_hide_the_ellipsoids(panel):
     panel.set(linear=False, angular=True)
     assert not panel.scene.visible("/ck/linear")

@@ -12,6 +12,7 @@ from .steps import STEPS, THERE, ahead, iterate, run
 
 LOAD = 100.0  # N
 TWIST = 10.0  # N m, about y
+FAINT = 0.06  # where both ellipsoids agree, the colour seen is that of the right one
 
 
 class Jacobians(Explorer):
@@ -111,9 +112,9 @@ class Jacobians(Explorer):
             lengths, axes = self.mine.ask("ellipsoid", rows.copy())
             right = np.sort(jacobians.ellipsoid(J, part).lengths)[::-1]
             is_frame = np.abs(axes.T @ axes - np.eye(3)).max() < 1e-6
-            near = np.abs(self.scale[part] * lengths).max() < self.scene.size
-            if values[part] and is_frame and near and (lengths >= 0).all():
-                self.scene.ellipsoid(f"{sketch.path}/{part}", axes, self.scale[part] * lengths, tool, COLOR)
+            half = self.scale[part] * lengths
+            if values[part] and is_frame and half.max() < self.scene.size and (lengths >= 0).all():
+                self.scene.ellipsoid(f"{sketch.path}/{part}", axes, half, tool, COLOR, FAINT)
             else:
                 self.scene.remove(f"{sketch.path}/{part}")
             off = np.abs(lengths - right).max()
