@@ -264,7 +264,9 @@ def misshapen(exercise: Exercise, parts: list[np.ndarray]) -> str:
 
 
 def _show_shape(shape: tuple) -> str:
-    return str(shape).replace("None", "any number")
+    return (
+        "one row of numbers, however long" if shape == (None,) else str(shape).replace("None", "any number")
+    )
 
 
 def nearest(name: str, names: Iterable[str]) -> str:

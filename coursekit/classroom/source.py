@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import ast
+import itertools
 import linecache
 from collections.abc import Callable
 from functools import lru_cache, partial
 from types import CodeType, FrameType, FunctionType, MethodType
 from typing import Any
+
+CACHED = type(lru_cache(lambda: None))
 
 
 def own(function: Callable) -> tuple[Callable, tuple]:
@@ -16,13 +19,29 @@ def own(function: Callable) -> tuple[Callable, tuple]:
     `functools.partial` of a function gives it what it holds; a method gives its object, and so does an object
     that is called, of a class written in the notebook.
     """
-    if isinstance(function, partial) and not function.keywords:
+    if isinstance(function, partial):
         inner, before = own(function.func)
-        return inner, (*before, *function.args)
+        return _with_defaults(inner, function.keywords), (*before, *function.args)
+    if isinstance(function, CACHED):
+        return own(function.__wrapped__)
     if isinstance(function, MethodType):
         return function.__func__, (function.__self__,)
     called = type(function).__call__ if callable(function) else None
     return (called, (function,)) if isinstance(called, FunctionType) else (function, ())
+
+
+def _with_defaults(function: Callable, given: dict[str, Any]) -> Callable:
+    """The function where what it is given by name is what it takes if nothing comes."""
+    if not given or not isinstance(function, FunctionType):
+        return function
+    names = function.__code__.co_varnames[: function.__code__.co_argcount]
+    defaults = function.__defaults__ or ()
+    known = dict(zip(names[len(names) - len(defaults) :], defaults, strict=True)) | given
+    last = itertools.takewhile(known.__contains__, reversed(names))
+    values = tuple(known[name] for name in last)[::-1]
+    return FunctionType(
+        function.__code__, function.__globals__, function.__name__, values, function.__closure__
+    )
 
 
 def definition(function: Callable) -> ast.FunctionDef | None:

@@ -154,6 +154,8 @@ ONE = (  # (what was done, to which arrays it can be done, how)
     ("your answer has lost its sign: it is never negative", lambda x: True, np.abs),
     ("your answer is off by half a turn (pi)", lambda x: True, lambda x: x + np.pi),
     ("your answer is off by half a turn (pi)", lambda x: True, lambda x: x - np.pi),
+    ("your answer is off by a quarter turn (pi / 2)", lambda x: True, lambda x: x + np.pi / 2),
+    ("your answer is off by a quarter turn (pi / 2)", lambda x: True, lambda x: x - np.pi / 2),
     ("your answer and the right one add up to pi", lambda x: True, lambda x: np.pi - x),
     ("your answer and the right one add up to pi / 2", lambda x: True, lambda x: np.pi / 2 - x),
 )  # fmt: skip

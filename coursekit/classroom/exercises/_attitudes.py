@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import permutations
+from itertools import permutations, product
 
 import numpy as np
 
@@ -64,17 +64,27 @@ def adding_up_to_nothing(rng):
 
 
 def _half_turn_along(k):
-    return (2 * np.outer(k, k) - np.eye(3),)
+    return (2 * np.outer(k, k) - np.eye(3) + 0.0,)  # no -0.0, which has a sign after all
 
 
 def half_turn(rng):
     return _half_turn_along(direction(rng))
 
 
-def half_turn_in_a_plane(rng):
-    """About a line square to one axis: one component is 0, and gives no sign."""
-    a = rng.uniform(0.3, 1.2)
-    return _half_turn_along(np.roll([np.cos(a), -np.sin(a), 0], rng.integers(3)))
+def half_turn_in_a_plane(axis, side):
+    """About a line square to this axis: its component is 0, and gives the two others no sign."""
+
+    def draw(rng):
+        a = side * rng.uniform(0.3, 1.2)
+        return _half_turn_along(np.roll([0, np.cos(a), np.sin(a)], axis))
+
+    return draw
+
+
+HALF_TURNS_IN_A_PLANE = tuple(
+    Edge(f"for half a turn about a line square to {'xyz'[axis]}", half_turn_in_a_plane(axis, side))
+    for axis, side in product(range(3), (-1, 1))
+)
 
 
 def half_turn_about_nearly(largest, next_):
@@ -118,6 +128,14 @@ def away_from_lock(rng, quarters=(-2, -1, 0, 1), pitch=(0.2, 1.3)):
     (cz, sz), (cy, sy), (cx, sx) = ((np.cos(a), np.sin(a)) for a in (yaw, pitch, roll))
     turns = [[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]], [[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]]
     return (np.linalg.multi_dot([*turns, [[1, 0, 0], [0, cx, -sx], [0, sx, cx]]]),)
+
+
+def yaw_of_a_right_angle(rng):
+    """Without rounding: R[0, 0] is 0, and R[1, 0] alone holds the cosine of the pitch."""
+    yaw, s = int(rng.choice([-1, 1])), rng.choice([-1, 1], 2) * rng.uniform(0.3, 0.9, 2)
+    (sy, sx), (cy, cx) = s, np.sqrt(1 - s**2)
+    side, up = yaw * np.array([0, cx, -sx]), np.array([-sy, cy * sx, cy * cx])
+    return (np.array([-side, [yaw * cy, yaw * sy * sx, yaw * sy * cx], up]),)
 
 
 def tiny_turn(rng):

@@ -86,6 +86,11 @@ def arm_and_step(rng, name=None):
     return {"fk": name}, angles(rng, names[name]), rng.uniform(5e-4, 1e-3)
 
 
+def turned_and_step(rng):
+    fk, theta, step = arm_and_step(rng, "planar_2r")
+    return fk, theta + 2 * np.pi, step
+
+
 def coarse(rng):
     return {"fk": "kuka_kr6"}, angles(rng, 6), 0.1
 
@@ -215,6 +220,9 @@ def wrench(rng, n=None, R=None, moment=None, force=None):
     )
 
 
+SLIGHT = np.array([0.02, -0.03, 0.05])  # a moment that is one all the same
+
+
 def whole_wrench(rng):
     J = [[0, 0, 1], [1, 0, 0], [0, -1, 0], [2, 0, 0], [0, 1, 1], [0, 3, -2]]
     return J, WHOLE_POSES[rng.integers(2)], [1, -2, 3], [4, 0, -5]
@@ -249,6 +257,11 @@ def run_past_half_a_turn(rng):
     robot, _, theta, *_ = run(rng, "kuka_kr6")
     theta[3] = np.pi - 0.05
     return robot, robots.kuka_kr6().fk(theta + 0.15), theta, 0.1, 4
+
+
+def run_of_turned_joints(rng):
+    robot, T_sd, theta, k, _ = run(rng, "kuka_kr6", steps=1)
+    return robot, T_sd, theta + 2 * np.pi, k, 1
 
 
 def run_of_whole_numbers(rng):

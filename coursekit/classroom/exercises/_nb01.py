@@ -37,7 +37,7 @@ ROWS = (
     Edge("where theta is 180 deg", row_with(theta=np.pi)),
     Edge("where a is negative", row_with(a=-0.3)),
     Edge("where alpha and d are tiny", row_with(alpha=2e-4, d=-3e-4)),
-    Edge("for whole numbers", lambda rng: (1, 2, -1, 3)),
+    Edge("for whole numbers", lambda rng: (12, 2, -15, 3)),
     Edge("for angles of more than a turn", row_with(alpha=-7.0, theta=8.0)),
 )
 
@@ -145,6 +145,7 @@ SCREWS = (
     Edge("where theta is negative", by(hinge, -0.8)),
     Edge("for whole numbers", lambda rng: (np.array([0, 0, 1, 2, -1, 0]), 2)),
     Edge("where theta is more than a turn", by(lambda rng: hinge(rng, 0.1), 8.0)),
+    Edge("where theta is tiny", by(lambda rng: hinge(rng, 0.1), 5e-5)),
 )
 
 

@@ -30,7 +30,7 @@ LENGTHS = (
     Edge("for the S030 itself", lambda rng: (np.array([0.68, 0.15, 0.87, 1.08, 0.165]),)),
     Edge("where the offset is zero", _without(1)),
     Edge("where the flange has no length", _without(4)),
-    Edge("for whole numbers", lambda rng: (np.array([5, 1, 7, 9, 2]),)),
+    Edge("for whole numbers", lambda rng: (np.array([50, 10, 70, 90, 20]),)),
 )
 
 

@@ -41,6 +41,11 @@ def target_not_turned(rng):
     return T, tool
 
 
+def behind_the_flange(rng):
+    T, tool = target(rng)
+    return T, -tool
+
+
 def the_report(rng):
     return forward(REPORT, KR6, TOOL), TOOL
 

@@ -38,6 +38,11 @@ def beside(rng):
     return [0.0, side * out, p[2]], side * np.pi / 2, t3, lengths
 
 
+def turned(rng):
+    p, t1, t3, lengths = reached(rng)
+    return p, t1 + 2 * np.pi, t3 - 2 * np.pi, lengths
+
+
 def the_exam(rng):
     return [1.23, 0.0, 1.55], 0.0, 0.0, S030
 

@@ -53,6 +53,14 @@ def nilpotent(rng):
     return np.block([[above, nothing], [nothing, below]]), 1e-6
 
 
+def pivots_of_one(rng, idle=0):
+    """Every pivot is 1, and what is left of a column or a row no less: two motions are lost all the same."""
+    J, nothing = np.eye(3) - np.triu(np.ones((3, 3)), 1), np.zeros((3, 3))
+    rows, columns = rng.choice([-1, 1], (2, 6))
+    J = rows[:, None] * np.block([[J, nothing], [nothing, J.T]]) * columns
+    return np.hstack([np.zeros((6, idle)), J]), 0.3
+
+
 def whole(rng):
     J = np.eye(6, 6, dtype=int) + np.eye(6, k=1, dtype=int) * rng.integers(1, 4)
     J[4:] = J[:2]

@@ -37,6 +37,7 @@ DLS_LOOP = Exercise(
         Edge("from a singular start", draws.run_from_a_singular_start),
         Edge("where a joint passes half a turn", draws.run_past_half_a_turn),
         Edge("for whole numbers", draws.run_of_whole_numbers),
+        Edge("where joints have turned more than once", draws.run_of_turned_joints),
     ),
     residual=residuals.target_missed,
     hints=(

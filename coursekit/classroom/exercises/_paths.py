@@ -97,6 +97,12 @@ def one_that_hardly_moves(rng):
     return q, points, v_max
 
 
+def a_slow_one(rng):
+    q, points, v_max = motion(rng, n=3)
+    q[:, 1] = 0.7 + np.cumsum(rng.uniform(4e-5, 9e-5, len(q)))
+    return q, points, v_max * [1, 1e-4, 1]
+
+
 def one_that_rests(rng):
     """Joint 2 stands still all along, also in the step that sets the speed."""
     q, points, v_max = motion(rng, n=3)

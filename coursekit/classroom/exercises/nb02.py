@@ -60,7 +60,7 @@ LINES = (
     Edge("for an axis along -z", _line_along(0.0, 0.0, -3.0)),
     Edge("for a very short w", lambda rng: (0.01 * _direction(rng), _point(rng))),
     Edge("for axis 5 of the KR6", lambda rng: (np.array([0, 1, 0]), np.array([0.9, 0, 0.435]))),
-    Edge("for whole numbers", lambda rng: (np.array([0, 3, -4]), np.array([1, -2, 3]))),
+    Edge("for whole numbers", lambda rng: (np.array([0, 3, -4]), np.array([10, -20, 30]))),
 )
 
 
@@ -76,7 +76,7 @@ def _lengths_without(k):
 LENGTHS = (
     Edge("for the ABB itself", lambda rng: (np.array([0.3991, 0.448, 0.042, 0.451, 0.082]),)),
     *(Edge(f"where L{k} is zero", _lengths_without(k)) for k in range(1, 6)),
-    Edge("for whole numbers", lambda rng: (np.array([4, 5, 1, 3, 2]),)),
+    Edge("for whole numbers", lambda rng: (np.array([400, 500, 100, 300, 200]),)),
 )
 
 
@@ -133,6 +133,7 @@ SCREWS = (
     Edge("where v is zero", lambda rng: (_screw(rng, 0.0, np.zeros(3)),)),
     Edge("for axis 5 of the KR6", lambda rng: (np.array([0, 1, 0, -0.435, 0, 0.9]),)),
     Edge("for whole numbers", lambda rng: (np.array([0, 0, -1, 2, 3, 1]),)),
+    Edge("for a fine pitch", lambda rng: (_screw(rng, 8e-4),)),
 )
 
 

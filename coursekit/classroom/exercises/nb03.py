@@ -39,6 +39,7 @@ EXERCISES = [
             Edge("for the report's target", _draw.the_report),
             Edge("for a tool frame that is not turned", _draw.target_not_turned),
             Edge("for whole numbers", _draw.whole_target),
+            Edge("where tool is negative", _draw.behind_the_flange),
         ),
         usual="for a tool frame that is turned",
         blocks=(Block("x of P", 0), Block("y of P", 1), Block("z of P", 2)),

@@ -110,6 +110,11 @@ def _arm_without(rng, which):
     return theta2, lengths
 
 
+def _arm_turned(rng):
+    theta2, lengths = _arm(rng)
+    return theta2 + 2 * np.pi, lengths
+
+
 def _kr6(rng):
     a1, _, a2, a3, d4 = KR6
     return -2.2, [a1, a2, a3, d4, 0.08]
@@ -248,6 +253,7 @@ EXERCISES = [
             Edge("where a1 is 0", lambda rng: _arm_without(rng, 0)),
             Edge("where a3 is 0", lambda rng: _arm_without(rng, 2)),
             Edge("for whole numbers", lambda rng: (-2, [1, 5, 3, 4, 2])),
+            Edge("where theta_2 is beyond half a turn", _arm_turned),
         ),
         usual="where theta_2 is negative",
         residual=_off_axis_1,
@@ -278,6 +284,7 @@ EXERCISES = [
             Edge("where P lies beside axis 1, p_x = 0", _exam.beside, 2),
             Edge("where cos(theta_3) is negative", lambda rng: _exam.reached(rng, folded=True), 2),
             Edge("for whole numbers", _exam.whole_exam),
+            Edge("where the joints have turned more than once", _exam.turned),
         ),
         usual="where the arm reaches to the front",
         residual=_exam.misses_p,
@@ -325,6 +332,8 @@ EXERCISES = [
             Edge("for singular values close to tol = 1e-10", _rank.finest, 2),
             Edge("where all eigenvalues of J are 0", _rank.nilpotent),
             Edge("for whole numbers", _rank.whole),
+            Edge("where pivots tell nothing", _rank.pivots_of_one),
+            Edge("where a joint moves nothing", lambda rng: _rank.pivots_of_one(rng, 1)),
         ),
         usual="for six joints and tol = 1e-6",
         residual=_rank.counted,

@@ -152,6 +152,7 @@ EXERCISES = [
             Edge("for an arm with seven joints", lambda rng: draws.arm_and_step(rng, "franka_panda")),
             Edge("for an arm with two joints", lambda rng: draws.arm_and_step(rng, "planar_2r")),
             Edge("for the KR10 at theta = 0", lambda rng: ({"fk": "kuka_kr10"}, np.zeros(6), 1e-3)),
+            Edge("where joints have turned more than once", draws.turned_and_step),
             Edge(
                 "where theta holds whole numbers",
                 lambda rng: ({"fk": "kuka_kr6"}, rng.permutation([1, -1, 2, -2, 1, 3]), 1e-3),
@@ -345,7 +346,7 @@ EXERCISES = [
             Edge("for a force alone", lambda rng: draws.wrench(rng, moment=np.zeros(3))),
             Edge("for a moment alone", lambda rng: draws.wrench(rng, force=np.zeros(3))),
             Edge("for six joints", lambda rng: draws.wrench(rng, 6)),
-            Edge("for two joints", lambda rng: draws.wrench(rng, 2)),
+            Edge("for two joints", lambda rng: draws.wrench(rng, 2, moment=draws.SLIGHT)),
             Edge("for whole numbers", draws.whole_wrench),
         ),
         residual=residuals.power_missed,

@@ -116,8 +116,8 @@ EXERCISES = [
             Edge("for a half turn about x", attitudes.half_turn_about(0)),
             Edge("for a half turn about y", attitudes.half_turn_about(1)),
             Edge("for a half turn about z", attitudes.half_turn_about(2)),
-            Edge("for a half turn about any line", attitudes.half_turn, 3),
-            Edge("for a half turn about a line square to an axis", attitudes.half_turn_in_a_plane),
+            Edge("for a half turn about any line", attitudes.half_turn, 2),
+            *attitudes.HALF_TURNS_IN_A_PLANE,
             *attitudes.HALF_TURNS_ABOUT_NEARLY_AN_AXIS,
             Edge("for nearly half a turn", attitudes.nearly_half_a_turn),
         ),
@@ -174,9 +174,8 @@ EXERCISES = [
             Edge("where the pitch is steep", lambda rng: attitudes.away_from_lock(rng, pitch=(1.52, 1.54))),
             Edge("for no turn at all", lambda rng: (np.eye(3, dtype=int),)),
             Edge("for a quarter turn about z", attitudes.quarter_turn),
-            Edge("for a half turn about an axis", attitudes.half_turn_about(0)),
-            Edge("for a half turn about an axis", attitudes.half_turn_about(1)),
-            Edge("for a half turn about an axis", attitudes.half_turn_about(2)),
+            *(Edge("for a half turn about an axis", attitudes.half_turn_about(i)) for i in range(3)),
+            Edge("where the yaw is a right angle", attitudes.yaw_of_a_right_angle),
         ),
         residual=residuals.zyx_missed,
         hints=(
@@ -267,6 +266,7 @@ EXERCISES = [
             Edge("where joint 1 sets the speed", draws.moves_most_but_may(0)),
             Edge("where the last joint sets the speed", draws.moves_most_but_may(2)),
             Edge("for whole numbers", draws.whole_motion),
+            Edge("where a joint that hardly moves sets the speed", draws.a_slow_one),
         ),
         residual=residuals.speed_missed,
         hints=(
@@ -325,6 +325,7 @@ EXERCISES = [
             Edge("for very nearly half a turn", attitudes.very_nearly_half_a_turn, tol=2e-9),
             Edge("for half a turn about x", attitudes.half_turn_about(0)),
             Edge("for half a turn about any line", attitudes.half_turn),
+            *attitudes.HALF_TURNS_IN_A_PLANE[::2],
         ),
         residual=residuals.turn_missed,
         hints=(

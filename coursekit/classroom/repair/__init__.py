@@ -34,6 +34,7 @@ BUDGET = 2_500_000  # executed lines, of the student's and of what they call
 TRIAL = 100  # of them: what a trial costs beside its call
 IN_A_HELPER = 600_000  # of them, for edits of each of the student's own functions that it calls
 ONE = 10_000  # of them in a single trial, whose loop may not end any more
+RANKS = 4  # of edits, the likely ones first
 SECONDS = 10.0  # of the processor: a backstop, where an edit makes work what did nothing before
 
 
@@ -62,17 +63,22 @@ def repair(exercise: Exercise, function: Callable, examples: list, cost: int) ->
         except Unfit:
             return ""
         if hits := search.hits():
-            return _told(search, hits, search.owner())
+            likelier = _in_a_helper(search, min(hit.rank for hit in hits))
+            return likelier or _told(search, hits, search.owner())
         return _in_a_helper(search) or two_edits(search)
 
 
-def _in_a_helper(search: _Search) -> str:
-    """The same of the student's own functions that it calls; exercises among them are known to be right."""
+def _in_a_helper(search: _Search, below: int = RANKS) -> str:
+    """The same of the student's own functions that it calls; exercises among them are known to be right.
+
+    below : only edits of a smaller rank, which are likelier than what was found already
+    """
     course, found = course_here(), []
-    for name in [name for name in search.box.trees if not course.has(name)]:
+    helpers = [name for name in search.box.trees if name != search.box.whole and not course.has(name)]
+    for name in helpers if below else ():
         search.turn_to(name)
         search.left = IN_A_HELPER // search.cost
-        if hits := search.hits():
+        if hits := search.hits(below):
             found.append(_told(search, hits, f" of `{search.tree.name}`"))
     search.turn_to(search.box.whole)
     return found[0] if len(found) == 1 else ""
@@ -132,9 +138,9 @@ class _Search:
         variant = self.chosen.get(key)
         return (self.ordinary[key] if variant is None else variant.value)(pieces, variables)
 
-    def hits(self) -> list[_Hit]:
+    def hits(self, below: int = RANKS) -> list[_Hit]:
         found: list[_Hit] = []
-        for rank, trials in self._in_order():
+        for rank, trials in itertools.islice(self._in_order(), below):
             for hit in trials:
                 if hit is not None:
                     found.append(hit)

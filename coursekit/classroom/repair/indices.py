@@ -12,6 +12,7 @@ def changes(node: ast.expr) -> Iterator[Callable]:
     yield from (_changed_index(k, change) for k in range(count) for change in _CHANGES)
     if isinstance(node, ast.Tuple) and count == 2:
         yield _turned_index
+        yield _counted_from_1
 
 
 def index_value(node: ast.expr) -> ast.expr:
@@ -35,6 +36,10 @@ def _changed_index(k: int, change: Callable) -> Callable:
 
 def _turned_index(index):
     return index[::-1]
+
+
+def _counted_from_1(index):
+    return tuple(map(_shifted(-1), index))
 
 
 def _shifted(by: int) -> Callable:

@@ -55,8 +55,9 @@ class Place:
 def places(function: ast.FunctionDef) -> Iterator[Place]:
     """Every expression of the function's body that something else could stand for, in source order."""
     variables = list(dict.fromkeys(_variables(function)))
+    used = {n.id for n in ast.walk(function) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)}
     for number, (parent, field, at, node) in enumerate(list(_expressions(function))):
-        place = replace(_place(parent, field, at, node, variables), number=number)
+        place = replace(_place(parent, field, at, node, variables, used), number=number)
         if place.variants:
             yield place
 
@@ -151,8 +152,13 @@ def _is_value(node: ast.AST) -> bool:
     return isinstance(node, ast.expr) and not isinstance(getattr(node, "ctx", None), ast.Store | ast.Del)
 
 
-def _place(parent: ast.AST, field: str, at: int | None, node: ast.expr, variables: list[str]) -> Place:
+def _place(
+    parent: ast.AST, field: str, at: int | None, node: ast.expr, variables: list[str], used: set[str]
+) -> Place:
     pieces, ordinary, variants = MAKERS.get(type(node), whole)(node, variables)
+    if isinstance(node, ast.Name):  # a variable that is used nowhere is likely to be what belongs there
+        unused = [name not in used for name in variables if name != node.id]
+        variants = [v._replace(rank=0) if new else v for v, new in zip(variants, unused, strict=False)]
     if _may_wrap(parent, field, node):
         variants = [*variants, *wraps(ordinary, variables, node)]
     return Place(node, parent, field, at, pieces, ordinary, tuple(variants))

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ..source import definition, own
+from ..source import CACHED, definition, own
 from .finite import in_a_trial
 
 TICK = "__tick"
@@ -74,8 +74,22 @@ class Sandbox:
     def _given(self, value: Any) -> Any:
         """A copy of what comes before the arguments: of an object, of what it holds."""
         if hasattr(value, "__dict__") and not callable(getattr(value, "__array__", None)):
-            return SimpleNamespace(**{name: self._copied(name, held) for name, held in vars(value).items()})
+            copy = SimpleNamespace(**{name: self._copied(name, held) for name, held in vars(value).items()})
+            for owner in type(value).__mro__[-2::-1]:
+                for name, method in vars(owner).items():
+                    if isinstance(method, FunctionType) and not name.startswith("__"):
+                        self._give_method(copy, name, method)
+            return copy
         return self._copied("what it is given", value)
+
+    def _give_method(self, owner: SimpleNamespace, name: str, method: FunctionType) -> None:
+        """One of an object's methods, for those that call it by `self`; what cannot be tried is not there."""
+        key = f"self.{name}"
+        try:
+            self.names[key] = self._helper(key, method)
+        except Unfit:
+            return
+        setattr(owner, name, lambda *given, **named: self.names[key](owner, *given, **named))
 
     def _made(self, tree: ast.FunctionDef, name: str, defaults: tuple | None) -> FunctionType:
         code = compile(ast.Module([tree], []), "<trial>", "exec")
@@ -128,6 +142,8 @@ class Sandbox:
         self.names[name] = self._copied(name, value)
 
     def _copied(self, name: str, value: Any) -> Any:
+        if isinstance(value, CACHED):
+            value = value.__wrapped__
         if isinstance(value, ModuleType):
             if value.__name__.split(".")[0] == "coursekit" and "view" not in value.__name__:
                 return value

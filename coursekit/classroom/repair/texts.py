@@ -15,6 +15,7 @@ TEXTS = {
     "arguments": "the order of the arguments of `{}`",
     "function": "`{}`: another function is needed there",
     "call": "`{}`: a call too many",
+    "modulo": "whole turns, or whatever `%` takes off, should stay",
     "keyword": "the keyword `{}`",
     "comparison": "the comparison",
     "number": "a number",
@@ -65,6 +66,8 @@ EVERY = {
     "name": "every `{}`: another variable belongs there",
     "missing": "`{}` is missing at several places",
 }
+# kind -> what does the same in other words: without the line it does not matter which one stands behind it
+LESSER = {"line": ("lines", "modulo"), "call": ("number",), "modulo": ("number",)}
 WHOLE = {"+": "sum", "-": "difference", "*": "product", "@": "product", "/": "fraction", "**": "power"}
 
 
@@ -101,6 +104,10 @@ def _what(kinds: list[tuple[str, str]]) -> str:
     kinds = [one for one in kinds if one[0] not in plain]
     if len({kind for kind, _ in kinds}) > 2:  # of a rotation the inverse is the transpose: once is enough
         kinds = [one for one in kinds if one[0] != "inverse" or ("transposed", one[1]) not in kinds]
+    found = {kind for kind, _ in kinds}
+    for kind, lesser in LESSER.items():
+        if kind in found:
+            kinds = [one for one in kinds if one[0] not in lesser]
     kinds = [one for one in kinds if one[0] == "whole_numbers"] or kinds  # most edits make decimals of them
     texts = list(dict.fromkeys(_one(kind, what) for kind, what in kinds))
     if len(texts) > 2:

@@ -131,6 +131,8 @@ def _binary(node: ast.BinOp, variables: list[str]) -> Made:
         variants.append(Variant("products", _apply(_matrix_product), rank=0))
     if kind is ast.Div and isinstance(node.left, ast.Constant) and node.left.value == 1:
         variants.append(Variant("inverse", lambda p, _: np.linalg.inv(p[1]), rank=0))
+    if kind is ast.Mod:
+        variants.append(Variant("modulo", lambda p, _: p[0], rank=0))
     if kind in (ast.MatMult, ast.Sub, ast.Div, ast.Pow):
         variants.append(Variant("order", lambda p, _: compute(p[1], p[0]), rank=0))
     if kind is ast.Sub:
@@ -295,6 +297,8 @@ def _call(node: ast.Call, variables: list[str]) -> Made:
         variants += [variant("keyword", _keyword("axis", new), "axis") for new in _AXES]
     if count == 1 and name not in SIZES and name not in ("len", "zip", "enumerate"):
         variants.append(Variant("call", lambda p, _: p[1], name))
+    if name in _LIMITING and count > 1:
+        variants.append(variant("call", lambda *_: _first))
     if name == "norm" and count == 1 and not keys:  # of a position, its distance from an axis
         variants += [Variant("index", with_change(_part(slice(2))))]
     if name == "sign":
@@ -316,6 +320,13 @@ _ALONG_AXES = (
     *("norm", "sum", "max", "min", "mean", "argmax", "argmin"),
     *("all", "any", "diff", "cumsum", "flip"),
 )
+
+
+_LIMITING = ("clip", "minimum", "maximum", "min", "max", "mod", "fmod", "remainder", "round", "around")
+
+
+def _first(x: Any, *others: Any, **_: Any) -> Any:
+    return x
 
 
 def _exchange(i: int, j: int) -> Callable:

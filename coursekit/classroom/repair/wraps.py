@@ -45,7 +45,7 @@ _DONE: tuple[tuple[str, Callable, Callable | None], ...] = (
     ("one_minus", lambda x: 1 - x, None),
     ("upside_down", lambda x: 1 / x, None),
     ("millimetres", lambda x: x / 1000, lambda x: x / 1e5),
-    ("millimetres", _millimetres, lambda x: 1e5 * x),
+    ("millimetres", _millimetres, lambda x: 100_000 * x),
     ("whole_numbers", lambda x: np.asarray(x, float), None),
     ("turn", lambda x: (x + np.pi) % (2 * np.pi) - np.pi, None),
     ("halves", _halves_exchanged, None),
