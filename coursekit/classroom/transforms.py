@@ -194,7 +194,8 @@ def _transforms(exercise: Exercise, examples: list, answers: list, k: int) -> It
     yield from _rearranged(exercise, right[0], mine[0])
     yield from _scaled(exercise, examples, answers)
     yield from _of_entries(exercise, right[0], mine[0])
-    yield "your numbers are rounded: give them as they are", _rounded(mine)
+    if (digits := _digits(mine)) is not None:
+        yield "your numbers are rounded: give them as they are", _rounded(digits)
 
 
 def _on(fits: list[bool], change: Callable) -> Callable:
@@ -219,11 +220,14 @@ def _cut(parts):
     return tuple(np.trunc(part) for part in parts)
 
 
-def _rounded(mine: Parts) -> Callable:
-    """Rounded to as many digits as the student's own numbers have."""
-    digits = next(
-        (d for d in range(9) if all(np.allclose(p, np.round(p, d), rtol=0, atol=1e-12) for p in mine)), 12
+def _digits(mine: Parts) -> int | None:
+    """How many digits behind the point the student's own numbers have, None if they have many."""
+    return next(
+        (d for d in range(9) if all(np.allclose(p, np.round(p, d), rtol=0, atol=1e-12) for p in mine)), None
     )
+
+
+def _rounded(digits: int) -> Callable:
     return lambda parts: tuple(np.round(part, digits) for part in parts)
 
 
@@ -275,7 +279,8 @@ def _scaled(exercise: Exercise, examples: list, answers: list) -> Iterator[tuple
         times = _times(factor)
         yield f"your answer is {times} the right one", lambda parts: tuple(factor * p for p in parts)
     shift = float(np.mean(mine - right))
-    yield f"your answer is off by {shift:+.4g}, always", lambda parts: tuple(p + shift for p in parts)
+    if abs(shift) > np.max(examples[k].tol):
+        yield f"your answer is off by {shift:+.4g}, always", lambda parts: tuple(p + shift for p in parts)
 
 
 def _times(factor: float) -> str:

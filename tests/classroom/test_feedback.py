@@ -1,7 +1,7 @@
 """The proof that `check` meets the student: no wrong answer is accepted, nearly all are named or placed.
 
 `wrong/played.json` holds 306 wrong answers written while the released notebooks were played as a student
-would, without a look at the rest; `wrong/slips.json` those of 1,240 such answers that taught something, and
+would, without a look at the rest; `wrong/slips.json` those of 1,660 such answers that taught something, and
 what is to be said of them; the other files hold those that their authors thought of while they wrote the
 feedback. `right/` holds right versions of every exercise in other styles.
 """

@@ -125,17 +125,26 @@ def away_from_lock(rng, quarters=(-2, -1, 0, 1), pitch=(0.2, 1.3)):
     """A rotation whose pitch, up or down, lies between these two: it is never a right angle."""
     yaw, roll = np.pi / 2 * rng.choice(quarters, 2) + rng.uniform(0.2, 1.3, 2)
     pitch = rng.choice([-1, 1]) * rng.uniform(*pitch)
-    (cz, sz), (cy, sy), (cx, sx) = ((np.cos(a), np.sin(a)) for a in (yaw, pitch, roll))
+    return _turned_by(*((np.cos(angle), np.sin(angle)) for angle in (yaw, pitch, roll)))
+
+
+def _turned_by(yaw, pitch, roll):
+    """About z, y and x by these angles, whose cosines and sines are given."""
+    (cz, sz), (cy, sy), (cx, sx) = yaw, pitch, roll
     turns = [[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]], [[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]]
-    return (np.linalg.multi_dot([*turns, [[1, 0, 0], [0, cx, -sx], [0, sx, cx]]]),)
+    return (np.linalg.multi_dot([*turns, [[1, 0, 0], [0, cx, -sx], [0, sx, cx]]]) + 0.0,)
 
 
-def yaw_of_a_right_angle(rng):
-    """Without rounding: R[0, 0] is 0, and R[1, 0] alone holds the cosine of the pitch."""
-    yaw, s = int(rng.choice([-1, 1])), rng.choice([-1, 1], 2) * rng.uniform(0.3, 0.9, 2)
-    (sy, sx), (cy, cx) = s, np.sqrt(1 - s**2)
-    side, up = yaw * np.array([0, cx, -sx]), np.array([-sy, cy * sx, cy * cx])
-    return (np.array([-side, [yaw * cy, yaw * sy * sx, yaw * sy * cx], up]),)
+def one_of_a_right_angle(which):
+    """The yaw (0) or the roll (2) is -90 degrees, without rounding: its cosine is 0, and tells no sign."""
+
+    def draw(rng):
+        angles = rng.choice([-1, 1], 3) * rng.uniform(0.3, 0.9, 3)
+        turns = [(np.cos(angle), np.sin(angle)) for angle in angles]
+        turns[which] = 0.0, -1.0
+        return _turned_by(*turns)
+
+    return draw
 
 
 def tiny_turn(rng):

@@ -146,6 +146,7 @@ SCREWS = (
     Edge("for whole numbers", lambda rng: (np.array([0, 0, 1, 2, -1, 0]), 2)),
     Edge("where theta is more than a turn", by(lambda rng: hinge(rng, 0.1), 8.0)),
     Edge("where theta is tiny", by(lambda rng: hinge(rng, 0.1), 5e-5)),
+    Edge("where theta is small", by(lambda rng: hinge(rng, 0.1), -0.006)),
 )
 
 

@@ -175,7 +175,8 @@ EXERCISES = [
             Edge("for no turn at all", lambda rng: (np.eye(3, dtype=int),)),
             Edge("for a quarter turn about z", attitudes.quarter_turn),
             *(Edge("for a half turn about an axis", attitudes.half_turn_about(i)) for i in range(3)),
-            Edge("where the yaw is a right angle", attitudes.yaw_of_a_right_angle),
+            Edge("where the yaw is a right angle", attitudes.one_of_a_right_angle(0)),
+            Edge("where the roll is a right angle", attitudes.one_of_a_right_angle(2)),
         ),
         residual=residuals.zyx_missed,
         hints=(
@@ -323,7 +324,7 @@ EXERCISES = [
             Edge("where z is the largest, and negative", attitudes.large_and_negative(2)),
             Edge("for nearly half a turn", attitudes.nearly_half_a_turn),
             Edge("for very nearly half a turn", attitudes.very_nearly_half_a_turn, tol=2e-9),
-            Edge("for half a turn about x", attitudes.half_turn_about(0)),
+            *(Edge("for half a turn about an axis", attitudes.half_turn_about(i)) for i in range(3)),
             Edge("for half a turn about any line", attitudes.half_turn),
             *attitudes.HALF_TURNS_IN_A_PLANE[::2],
         ),

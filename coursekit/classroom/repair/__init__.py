@@ -35,6 +35,7 @@ TRIAL = 100  # of them: what a trial costs beside its call
 IN_A_HELPER = 600_000  # of them, for edits of each of the student's own functions that it calls
 ONE = 10_000  # of them in a single trial, whose loop may not end any more
 RANKS = 4  # of edits, the likely ones first
+LIKELY = 2  # of them: many an edit of another rank gets a count right by chance
 SECONDS = 10.0  # of the processor: a backstop, where an edit makes work what did nothing before
 
 
@@ -115,6 +116,7 @@ class _Search:
         self.fixed: list[tuple[Place, Variant]] = []  # edits that stand while others are tried
         self.chosen: dict[int, Variant] = {}
         self.ordinary: dict[int, Callable] = {}
+        self.counts = all(len(e.right) == 1 and not e.right[0].ndim and e.right[0] % 1 == 0 for e in examples)
         self.box.names[PROBE], self.box.names[LOCALS] = self._probe, locals
 
     def turn_to(self, name: str) -> None:
@@ -140,7 +142,7 @@ class _Search:
 
     def hits(self, below: int = RANKS) -> list[_Hit]:
         found: list[_Hit] = []
-        for rank, trials in itertools.islice(self._in_order(), below):
+        for rank, trials in itertools.islice(self._in_order(), min(below, LIKELY if self.counts else RANKS)):
             for hit in trials:
                 if hit is not None:
                     found.append(hit)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import operator
 from collections.abc import Callable, Iterator
 
 
@@ -13,6 +14,27 @@ def changes(node: ast.expr) -> Iterator[Callable]:
     if isinstance(node, ast.Tuple) and count == 2:
         yield _turned_index
         yield _counted_from_1
+
+
+def fixed(node: ast.expr) -> list[int | None]:
+    """Where a number stands in an index: at which places of a tuple, or [None] if it is the index itself."""
+    if isinstance(node, ast.Tuple):
+        return [k for k, part in enumerate(node.elts) if _is_number(part)]
+    return [None] if _is_number(node) else []
+
+
+def indexed_by(k: int | None, name: str) -> Callable:
+    """A variable that counts, where a fixed index stands: x[i] for x[0]."""
+
+    def value(p, v):
+        i = operator.index(v[name])
+        return p[0][i if k is None else (*p[1][:k], i, *p[1][k + 1 :])]
+
+    return value
+
+
+def _is_number(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and isinstance(node.value, int)
 
 
 def index_value(node: ast.expr) -> ast.expr:

@@ -17,7 +17,7 @@ import numpy as np
 
 from .brackets import fraction, sum_without_brackets
 from .finite import LINALG
-from .indices import changes, index_value
+from .indices import changes, fixed, index_value, indexed_by
 from .undone import one_undone
 
 
@@ -298,7 +298,7 @@ def _call(node: ast.Call, variables: list[str]) -> Made:
     if count == 1 and name not in SIZES and name not in ("len", "zip", "enumerate"):
         variants.append(Variant("call", lambda p, _: p[1], name))
     if name in _LIMITING and count > 1:
-        variants.append(variant("call", lambda *_: _first))
+        variants.append(Variant("call", lambda p, _: p[1], name, rank=0))
     if name == "norm" and count == 1 and not keys:  # of a position, its distance from an axis
         variants += [Variant("index", with_change(_part(slice(2))))]
     if name == "sign":
@@ -323,10 +323,6 @@ _ALONG_AXES = (
 
 
 _LIMITING = ("clip", "minimum", "maximum", "min", "max", "mod", "fmod", "remainder", "round", "around")
-
-
-def _first(x: Any, *others: Any, **_: Any) -> Any:
-    return x
 
 
 def _exchange(i: int, j: int) -> Callable:
@@ -375,6 +371,7 @@ def _subscript(node: ast.Subscript, variables: list[str]) -> Made:
         return whole(node, variables)
     variants = [Variant("index", _indexed(change), rank=0) for change in changes(node.slice)]
     variants.append(Variant("index", lambda p, _: p[0]))
+    variants += [Variant("index", indexed_by(k, name)) for k in fixed(node.slice) for name in variables]
     return (lambda: [node.value, index_value(node.slice)]), lambda p, _: p[0][p[1]], variants
 
 
