@@ -99,4 +99,4 @@ def _pair_up(agree: np.ndarray) -> dict[int, int]:
 
     for row in range(len(candidates)):
         seat(row, set())
-    return {row: int(partner) for partner, row in taken.items()}
+    return {row: partner for partner, row in taken.items()}

@@ -19,6 +19,7 @@ from pygments.formatters import HtmlFormatter
 
 from ..classroom.author.notebook import is_check, is_solution
 from ..view import reopened
+from ..view.page import common_script
 from . import notices, reference, shown, tools
 from .frame import STATIC, framed
 
@@ -132,6 +133,7 @@ class _Body:
 
     def __init__(self, name: str, out: Path) -> None:
         self.name, self.out = name, out
+        self.explorers: dict[str, str] = {}  # page -> its file: some stand in two cells
         self.colour = Highlight2HTML(pygments_lexer="python3")
 
     def of(self, notebook: NotebookNode) -> str:
@@ -169,10 +171,10 @@ class _Body:
         file = f"pictures/{name}.png"
         (self.out / file).write_bytes(base64.b64decode(png))
         picture = f'<img src="{file}" alt="{html.escape(alt or "figure; its caption follows")}">'
-        page = reopened.page_of(line)
+        page = reopened.page_of(line, common="../static/explorer.js")
         if page is None:
             return f'<figure class="picture">{picture}</figure>'
-        explorer = f"explorers/{name}.html"
+        explorer = self.explorers.setdefault(page, f"explorers/{name}.html")
         (self.out / explorer).write_text(page, encoding="utf-8")
         frame = f'<iframe data-src="{explorer}" title="{html.escape(line.split(":")[0])}"></iframe>'
         hint = f"<figcaption>{reopened.HINT}</figcaption>"
@@ -232,6 +234,7 @@ def _static(folder: Path) -> None:
     style = (STATIC / "page.css").read_text(encoding="utf-8")
     (folder / "page.css").write_text(f"{light}\n{dark}\n{style}", encoding="utf-8")
     shutil.copy(STATIC / "page.js", folder / "page.js")
+    (folder / "explorer.js").write_text(common_script(), encoding="utf-8")
     source = formulas()
     for name in _OF_MATHJAX:
         here, there = source / name, folder / "mathjax" / name

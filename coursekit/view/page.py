@@ -1,6 +1,7 @@
 """A scene as one HTML file: it turns, plays and follows its sliders without a kernel or the network."""
 
 import base64
+import gzip
 import html
 import json
 
@@ -16,11 +17,14 @@ _OF_A_VIEWER += ["pointers", "theta", "motion", "motion_texts", "frame", "reachi
 _OF_A_FORMULA = ["kind", "label", "word", "value", "says"]
 
 
-def to_html(shown: Panel | Viewer) -> str:
-    """A Panel or a Viewer as it stands now (pose, motion, sliders that move arms, formula): a page, 1 MB.
+def to_html(shown: Panel | Viewer, common: str = "") -> str:
+    """A Panel or a Viewer as it stands now (pose, motion, sliders that move arms, formula): a page, 0.6 MB.
 
     What only a kernel can compute is not shown for a pose that the sliders of the page have changed. Without
     WebGL the page shows a picture.
+
+    common : where a file with `common_script()` lies, from the page; many pages that share it weigh 0.2 MB
+        each. By default the page holds it.
 
     >>> from coursekit import robots, view
     >>> panel = view.explore(robots.planar_2r())
@@ -46,16 +50,32 @@ def to_html(shown: Panel | Viewer) -> str:
         "title": html.escape(line.split(":")[0]),
         "description": html.escape(line),
         "style": script.Script._css,
-        "script": script.Script._esm,
-        "state": json.dumps({"viewer": state, "sliders": sliders, "formula": formula}).replace("</", "<\\/"),
+        "common": f'<script src="{common}"></script>' if common else f"<script>{common_script()}</script>",
+        "state": _packed({"viewer": state, "sliders": sliders, "formula": formula}),
         "picture": _base64(png(viewer.scene, 640, viewer.height)),
-        "bundle": _base64(meshcat.bundle()),
-        "notices": meshcat.notices().replace("--", "- -"),  # inside a comment
     }
     page = script.read("page.html")
     for name, text in parts.items():
         page = page.replace(f"@{name}@", text)
     return page
+
+
+def common_script() -> str:
+    """What is the same in all pages: the script that moves them, and meshcat's bundle with its licences."""
+    notices = meshcat.notices().replace("*/", "* /")  # inside a comment
+    plain = script.read(*(f"{name}.js" for name in script.OF_A_PAGE))
+    plain = plain.replace("\nexport function", "\nfunction")  # a page in a folder may load no module
+    return f"""/* This script contains meshcat and the libraries in its bundle:
+
+{notices}
+*/
+{plain}
+const BUNDLE = "{_base64(meshcat.bundle())}";
+"""
+
+
+def _packed(state):
+    return _base64(gzip.compress(json.dumps(state).encode(), mtime=0))
 
 
 def _of(widget, names):

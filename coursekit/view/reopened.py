@@ -44,8 +44,10 @@ _ONE_AT_A_TIME = threading.Lock()  # a new explorer closes the one of its name, 
 
 
 @functools.lru_cache(maxsize=32)
-def page_of(line: str) -> str | None:
+def page_of(line: str, common: str = "") -> str | None:
     """The page of the explorer that stored this line; None for a line of anything else, or of an own arm.
+
+    common : as of `view.to_html`
 
     >>> page_of("Explorer of screws: my arm: joints (0.0) deg; tool at (0.0, 0.0, 0.0) mm") is None
     True
@@ -65,7 +67,7 @@ def page_of(line: str) -> str | None:
         try:
             if repr(panel) != line and shown.shape == (robot.n,):
                 _put(panel, robot, shown / shown_per_si(robot))
-            return view.to_html(panel)
+            return view.to_html(panel, common)
         finally:
             panel.close()
 

@@ -14,8 +14,9 @@ import traitlets
 from coursekit.view import meshcat
 
 STATIC = Path(__file__).parent / "static"
-SCRIPTS = ["html", "numbers", "parts", "controls", "bundle", "stage", "actors", "player"]
-SCRIPTS += ["kinematics", "follow", "handles", "point", "viewer", "shared"]
+OF_A_PAGE = ["html", "numbers", "parts", "controls", "bundle", "stage", "actors", "player"]
+OF_A_PAGE += ["kinematics", "follow", "handles", "point", "viewer"]
+SCRIPTS = [*OF_A_PAGE, "shared"]  # widgets of a notebook share it
 
 
 def read(*names: str) -> str:

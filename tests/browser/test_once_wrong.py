@@ -152,7 +152,7 @@ def test_a_damaged_script_is_told_and_not_waited_for(browser, tmp_path):
     panel = view.explore(KR6)
     text = view.to_html(panel)
     panel.close()
-    start = text.index('receiveBundle(unpack("') + len('receiveBundle(unpack("')
+    start = text.index('const BUNDLE = "') + len('const BUNDLE = "')
     file = tmp_path / "damaged.html"
     file.write_text(text[:start] + "AAAA" + text[start + 400 :], encoding="utf-8")
     page = browser.new_context(offline=True).new_page()

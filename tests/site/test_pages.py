@@ -86,7 +86,13 @@ def test_every_explorer_moves(pages):
     for path in NOTEBOOKS:
         frames = re.findall(r'data-src="([^"]+)"', (pages / f"{path.stem}.html").read_text("utf-8"))
         assert frames, path.stem
-        assert all((pages / frame).stat().st_size > 100_000 for frame in frames)
+        assert all(100_000 < (pages / frame).stat().st_size < 300_000 for frame in frames)
+
+
+def test_what_a_browser_keeps_of_the_pages_is_light(pages):
+    """It comes with the first page, beside what "Run it here" loads."""
+    kept = json.loads(re.search(r"PAGES = (.*);", (pages / "offline.js").read_text("utf-8"))[1])
+    assert sum((pages / name).stat().st_size for name in kept if name != "./") < 6_000_000
 
 
 def test_licences_lie_beside_what_they_are_for(pages):

@@ -15,9 +15,9 @@ LINE = "Explorer of screws: KUKA KR6 R900 sixx: joints ({}.0, 0.0, 0.0, 0.0, 0.0
 def test_pages_that_a_notebook_asks_for_at_once_do_not_close_each_other(monkeypatch):
     to_html = view.to_html
 
-    def slowly(panel):
+    def slowly(panel, common):
         time.sleep(1)  # time enough for another request to make its explorer
-        return to_html(panel)
+        return to_html(panel, common)
 
     monkeypatch.setattr(view, "to_html", slowly)
     with ThreadPoolExecutor(3) as threads:

@@ -170,11 +170,18 @@ def test_the_line_of_text_is_stable(viewer):
 def test_a_page_of_its_own_needs_no_network(viewer):
     page = to_html(viewer)
     assert "Copyright (c) 2018 Robin Deits" in page and "three 0.132.2 (MIT)" in page  # whose bundle it holds
-    assert page.index("-->") > page.index("three 0.132.2")  # no notice ends the comment
-    assert len(page) < 1_000_000
-    page = page.partition("-->")[2]
+    begin, end = page.index("/* This script contains"), page.index("\n*/\n")
+    assert begin < page.index("three 0.132.2") < end and "*/" not in page[begin:end]
+    assert page.count("</script>") == page.count("<script") == 2  # nor a script
+    assert len(page) < 700_000
+    page = page[:begin] + page[end:]
     assert "http://" not in page.replace("http://www.w3.org", "") and "https://" not in page
     assert "src=" not in page and "KUKA KR6 R900 sixx" in page
+
+
+def test_pages_share_what_is_the_same_in_all(viewer):
+    page = to_html(viewer, common="../common.js")
+    assert '<script src="../common.js"></script>' in page and len(page) < 250_000
 
 
 def test_neither_meshcat_nor_its_warnings_are_imported():
