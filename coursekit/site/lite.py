@@ -29,15 +29,17 @@ _FIRST = re.compile(
     r"^(static/pyodide|lab|files|api)/|^build/jlab_core\.|^extensions/.*remoteEntry|^[^/]*\.json$"
 )
 STATIC = Path(__file__).with_name("static")
-# What JupyterLab's page has besides: Python, the system's colours before there is a theme, and marks of
-# waiting that stand still: one that turns takes the processor from Python, for which it waits.
+# What JupyterLab's page has besides: what loads all of it and starts Python, the system's colours before
+# there is a theme, and marks of waiting that stand still: one that turns takes the processor from Python, for
+# which it waits.
 _HEAD = """<script src="../early.js"></script>
+<script src="../start.js"></script>
 <style>@media (prefers-color-scheme: dark) { html body { background-color: #111; color: #fff; } }
 html .jp-KernelStatus-spinner, html #jupyterlab-splash [id^=moon] { animation: none !important; }</style>"""
 
 
 # Where "Run it here" leads, with the name of a notebook.
-ADDRESS = "run/start.html?path={}.ipynb"
+ADDRESS = "run/lab/index.html?path={}.ipynb"
 # Whose work is shipped with it, besides that of the pages.
 SHIPPED = {
     "jupyterlite-core": "JupyterLab; the licences of its parts: run/build/third-party-licenses.json",
@@ -142,15 +144,13 @@ def _build(work: Path, notebooks: Path) -> None:
 
 
 def _finish(out: Path) -> None:
-    """Add the page that loads everything and the list of what that is; take away what nobody reads."""
+    """Add what loads everything and the list of what that is; take away what nobody reads."""
     for path in [*out.rglob("*.map"), out / "lab" / "favicon.ico"]:
         path.unlink()
     (out / "service-worker.js").rename(out / "jupyterlite-worker.js")
-    for path in (STATIC / "run").iterdir():
+    for path in (STATIC / "run").glob("*.js"):
         shutil.copy(path, out / path.name)
-    lab = out / "lab" / "index.html"
-    html = lab.read_text(encoding="utf-8")
-    lab.write_text(html.replace("<head>", f"<head>\n{_HEAD}", 1), encoding="utf-8")
+    _wait(out / "lab" / "index.html")
     files = {}
     for path in sorted(path for path in out.rglob("*") if path.is_file()):
         data = path.read_bytes()
@@ -161,3 +161,21 @@ def _finish(out: Path) -> None:
     version = hashlib.sha256(json.dumps(files).encode()).hexdigest()[:16]
     listed = {"version": version, "first": first, "files": files}
     (out / "files.json").write_text(json.dumps(listed), encoding="utf-8")
+
+
+def _wait(page: Path) -> None:
+    """Let JupyterLab's page wait until everything is loaded, and say meanwhile how far that is."""
+    html = page.read_text(encoding="utf-8")
+    start = (STATIC / "run" / "start.html").read_text(encoding="utf-8")
+    for old, new in (
+        ("<head>", f"<head>\n{_HEAD}"),
+        ('      rel="preload"\n', ""),  # what comes before the worker stands would not be kept
+        ("await import(", "await courseLoaded;\nawait import("),
+        ('data-notebook="lab">', f'data-notebook="lab">\n{start}'),
+    ):
+        if html.count(old) != 1:
+            raise ValueError(
+                f"JupyterLite's page is another one than the course knows: {old!r} is not there once"
+            )
+        html = html.replace(old, new)
+    page.write_text(html, encoding="utf-8")

@@ -204,9 +204,9 @@ def main():
                 contextlib.closing(browser()) as running,
                 Visit(running, server.url) as visit,
             ):
-                first = waits(visit, f"run/start.html?path={NAME}", lambda: server.server.sent)
+                first = waits(visit, f"run/lab/index.html?path={NAME}", lambda: server.server.sent)
                 before = server.server.sent
-                again = waits(visit, f"run/start.html?path={NAME}", lambda: server.server.sent - before)
+                again = waits(visit, f"run/lab/index.html?path={NAME}", lambda: server.server.sent - before)
                 return first, again
 
         names = ("jupyterlab", "jupyterlite-core", "jupyterlite-pyodide-kernel")
@@ -231,7 +231,7 @@ def main():
                 contextlib.closing(browser()) as running,
                 Visit(running, server.url) as visit,
             ):
-                waits(visit, f"run/start.html?path={NAME}")
+                waits(visit, f"run/lab/index.html?path={NAME}")
                 for row in memory(visit):
                     show(*row)
         print(f"load when it ended {os.getloadavg()[0]:.1f}")

@@ -34,6 +34,11 @@ WATCH = """addEventListener("DOMContentLoaded", () => {
   const node = document.getElementById("said");
   if (node) new MutationObserver(() => heard(node.textContent)).observe(node, { childList: true });
 })"""
+BEGUN = """() => { // Python's worker, and when the last of JupyterLab was here
+  const loaded = performance.getEntriesByType("resource");
+  const all = (part) => loaded.filter(({ name }) => name.includes(part));
+  return [all("/early.js").at(-1).startTime, all("/jlab_core")[0].responseEnd];
+}"""
 RUN = """async ([id, source]) => {
   const notebook = window.jupyterapp.shell.currentWidget.content;
   const index = notebook.widgets.findIndex((cell) => cell.model.id === id);
@@ -304,7 +309,7 @@ def _correct(run):
 def test_started_from_a_folder_it_says_what_is_missing(browser, run):
     context = browser.new_context()
     page = context.new_page()
-    page.goto((run / "start.html").as_uri())
+    page.goto((run / "lab" / "index.html").as_uri())
     assert "python3 -m http.server" in page.inner_text("#said")
     page.goto((run.parent / NAME.replace(".ipynb", ".html")).as_uri())
     page.click("header a.run")
@@ -324,8 +329,11 @@ def test_the_page_that_loads_says_how_far_it_is(browser, run, served, slow):
         visit.page.add_init_script(WATCH)
         # Firefox asks the reader whether to keep the store, and the reader may never answer
         visit.page.add_init_script("navigator.storage.persist = () => new Promise(() => {})")
-        visit.open("run/start.html?path=" + NAME)
-        visit.page.wait_for_function("() => location.pathname.includes('/run/lab/')", timeout=300_000)
+        visit.open("run/lab/index.html?path=" + NAME)
+        visit.page.wait_for_selector("#main", timeout=300_000)
+        assert not visit.page.is_visible("#said")
+        python, jupyterlab = visit.page.evaluate(BEGUN)
+        assert python < jupyterlab
         shares = [float(text.split("(")[1].split(" %")[0]) for text in said if "%" in text]
         assert shares == sorted(shares)
         assert shares[0] < 50 and shares[-1] == 100

@@ -1,6 +1,11 @@
-// Loads Python and JupyterLab into this browser's store, says how far it is, and opens the notebook.
-(() => {
+// Loads Python and JupyterLab into this browser's store and says how far it is; then JupyterLab's page, in which this
+// stands, goes on. Python starts as soon as its own files are here.
+globalThis.courseLoaded = new Promise((resolve) => {
   const CACHE = "coursekit-run";
+  const here = new URL("../", location.href); // the folder of all this
+  // What Python starts with, and its packages; the rest is JupyterLab's.
+  const CORE = /^(jupyter-lite\.json|static\/pyodide\/(pyodide[^/]*\.(js|json|wasm)|python_stdlib\.zip))$/;
+  const order = (name) => (CORE.test(name) ? 0 : name.startsWith("static/pyodide/") ? 1 : 2);
   const OFTEN = 250, SLOW = 3000; // ms: before the reader is told again how far it is; and when a line is a slow one
   const byId = (id) => document.getElementById(id);
   const say = (text) => { byId("said").textContent = text; };
@@ -9,24 +14,25 @@
   // The worker must stand between the page and the server before anything is loaded, so that all of it is kept.
   async function worker() {
     if (!("serviceWorker" in navigator)) return false; // a private window, or a page without https
-    const registered = navigator.serviceWorker.register("service-worker.js?enableCache=false");
+    const script = new URL("service-worker.js?enableCache=false", here).href;
+    const stands = () => navigator.serviceWorker.controller?.scriptURL === script; // and not the one that keeps pages
+    const registered = navigator.serviceWorker.register(script);
     registered.catch(() => {}); // told below, where it is waited for
-    if (navigator.serviceWorker.controller) return true; // to look for a newer one takes up to 2 s
+    if (stands()) return true; // to look for a newer one takes up to 2 s
     await registered;
-    await navigator.serviceWorker.ready;
-    if (navigator.serviceWorker.controller) return true;
-    return new Promise((resolve) => {
-      navigator.serviceWorker.addEventListener("controllerchange", () => resolve(true), { once: true });
-      setTimeout(() => resolve(Boolean(navigator.serviceWorker.controller)), 10_000);
+    return new Promise((stood) => {
+      const look = () => stands() && stood(true);
+      navigator.serviceWorker.addEventListener("controllerchange", look);
+      look();
+      setTimeout(() => stood(stands()), 10_000);
     });
   }
 
   async function load({ first, files }) {
     const cache = await caches.open(CACHE);
-    const here = new URL(".", location.href);
-    const key = (name) => `${here}${name}?sum=${files[name].sum}`;
+    const key = (name) => new URL(`${name}?sum=${files[name].sum}`, here).href;
     const total = first.reduce((sum, name) => sum + files[name].size, 0);
-    const missing = [], begun = performance.now();
+    const begun = performance.now();
     let loaded = 0, shown = 0;
     const show = () => {
       shown = performance.now();
@@ -34,11 +40,14 @@
       say(`${megabytes(loaded)} of ${megabytes(total)} MB (${Math.round((100 * loaded) / total)} %) are here`);
     };
     const look = () => performance.now() - shown > OFTEN && show();
-    for (const name of first) {
-      const kept = await cache.match(key(name));
-      if (kept) loaded += files[name].size;
-      else missing.push(name);
-    }
+    const kept = new Set((await cache.keys()).map(({ url }) => url));
+    const missing = new Set(first.filter((name) => !kept.has(key(name))));
+    for (const name of first) if (!missing.has(name)) loaded += files[name].size;
+    const tellPython = () => {
+      const lacking = Math.min(2, ...[...missing].map(order));
+      if (lacking > 0) self.startPython({ packages: lacking > 1 });
+    };
+    tellPython();
     show();
     const counted = (answer) => {
       const count = new TransformStream({
@@ -50,13 +59,16 @@
       });
       return new Response(answer.body.pipeThrough(count), answer);
     };
+    const waiting = [...missing].sort((one, other) => order(one) - order(other));
     const one = async () => {
-      for (let name = missing.shift(); name; name = missing.shift()) {
-        const answer = await fetch(name, { cache: "no-cache", headers: { "Coursekit-Keeps": "page" } }); // and not the worker
+      for (let name = waiting.shift(); name; name = waiting.shift()) {
+        const answer = await fetch(new URL(name, here), { cache: "no-cache", headers: { "Coursekit-Keeps": "page" } }); // and not the worker
         if (!answer.ok) throw new Error(`${name}: ${answer.status} ${answer.statusText}`);
         const isSlow = performance.now() - begun > SLOW; // if not, to look at each part would take as long as to load it
         await cache.put(key(name), isSlow ? counted(answer) : answer);
         if (!isSlow) loaded += files[name].size;
+        missing.delete(name);
+        tellPython();
         look();
       }
     };
@@ -74,21 +86,23 @@
     try {
       const kept = await worker();
       if (kept) {
-        await load(await (await fetch("files.json", { cache: "no-cache" })).json());
+        await load(await (await fetch(new URL("files.json", here), { cache: "no-cache" })).json());
       } else {
+        self.startPython({ packages: true });
         say("This browser keeps nothing here (a private window?): the course runs, but is loaded anew each time, and what "
           + "you write may be gone when the window is closed");
         await new Promise((done) => setTimeout(done, 4000));
       }
       say("JupyterLab opens");
-      const path = new URLSearchParams(location.search).get("path");
-      location.replace(`lab/index.html${path ? `?path=${encodeURIComponent(path)}` : ""}`);
+      resolve();
     } catch (error) {
       say(`Not everything could be loaded (${error.message}). What is here already stays here.`);
       byId("again").hidden = false;
     }
   }
 
-  byId("again").addEventListener("click", start);
-  start();
-})();
+  addEventListener("DOMContentLoaded", () => {
+    byId("again").addEventListener("click", start);
+    start();
+  });
+});
