@@ -152,6 +152,23 @@ def tiny_turn(rng):
     return turn(direction(rng), 1e-7)
 
 
+def slight_angles(rng):
+    angles = rng.choice([-1, 1], 3) * rng.uniform(2e-4, 5e-4, 3)
+    return _turned_by(*((np.cos(angle), np.sin(angle)) for angle in angles))
+
+
+RIGHT_AND_SLIGHT_ANGLES = (
+    Edge("where the yaw is a right angle", one_of_a_right_angle(0)),
+    Edge("where the roll is a right angle", one_of_a_right_angle(2)),
+    Edge("for slight angles", slight_angles),
+)
+SLIGHT_TURNS = (
+    Edge("for a slight turn", lambda rng: turn(direction(rng), 5e-4)),
+    Edge("for a turn of some degrees", lambda rng: turn(direction(rng), 0.05)),
+    Edge("for nearly half a turn", lambda rng: turn(direction(rng), np.pi - 5e-4)),
+)
+
+
 def between(t=None, R_0=None):
     """Two attitudes 0.5 to 2.4 rad apart, and where to stand between them."""
 
@@ -178,9 +195,27 @@ def through_a_half_turn(rng):
     return turn(k, 2.8)[0], turn(k, -2.8)[0], rng.uniform(0.2, 0.4)
 
 
+def close_together(rng):
+    (R,) = attitude(rng)
+    return R, R @ turn(direction(rng), 2e-4)[0], rng.uniform(0.2, 0.8)
+
+
+def another_largest(rng):
+    """First -x, then w: quaternions whose largest number is positive lie far apart."""
+    back = np.array([-1, 0, 0])
+    return turn(back, np.pi / 2 + 0.03)[0], turn(back, np.pi / 2 - 0.03)[0], rng.uniform(0.2, 0.4)
+
+
 def far_apart(rng):
     (R,) = attitude(rng)
     return R, R @ turn(direction(rng), rng.uniform(2.8, 3.0))[0], rng.uniform(0.2, 0.4)
+
+
+FAR_AND_NEAR = (
+    Edge("for a large turn between them", far_apart),
+    Edge("where R_1 is near R_0", close_together),
+    Edge("where another number of the quaternion becomes the largest", another_largest),
+)
 
 
 def between_whole(rng):

@@ -29,8 +29,8 @@ def screws(rng, n=None):
 
 
 def screws_turned(rng):
-    S, theta = screws(rng, 4)
-    return S, theta + 2 * np.pi
+    S, theta = screws_with_pitch(rng)
+    return S, theta + 2 * np.pi * np.array([1, -1, 1, -1])
 
 
 def screws_with_slide(rng):
@@ -112,6 +112,10 @@ def flat_rows(rng):
     return rows(rng, 5, (1.2, 0.6, 0.0), (1.8, 0.9, 0.0))
 
 
+def nearly_flat_rows(rng):
+    return rows(rng, 5, (1.2, 0.6, 2e-4), (1.8, 0.9, 4e-4))
+
+
 def panda_stretched(rng):
     """omega of the Panda at theta = 0."""
     return ([[0, 0, 0, 0, 0, 0, 0], [0, 1, 0, -1, 0, -1, 0], [1, 0, 1, 0, 1, 0, -1]],)
@@ -125,6 +129,12 @@ def step(rng, shape=None, least=None):
     sigma = rng.uniform(0.3, 1.5, r)
     sigma[-1] = rng.uniform(0.02, 0.1) if least is None else least
     return U[:, :r] @ np.diag(sigma) @ V[:r], rng.uniform(-0.5, 0.5, m), rng.uniform(0.1, 0.4)
+
+
+def slight_step(rng):
+    """Near the target, and with little damping."""
+    J, e, _ = step(rng)
+    return J, 5e-3 * e, 2e-3
 
 
 def singular_step(rng):

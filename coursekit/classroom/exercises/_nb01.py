@@ -36,9 +36,11 @@ ROWS = (
     Edge("where alpha is 180 deg", row_with(alpha=np.pi)),
     Edge("where theta is 180 deg", row_with(theta=np.pi)),
     Edge("where a is negative", row_with(a=-0.3)),
-    Edge("where alpha and d are tiny", row_with(alpha=2e-4, d=-3e-4)),
+    Edge("where alpha and d are tiny", row_with(alpha=2e-5, d=-3e-5)),
+    Edge("where a and theta are tiny", row_with(a=3e-5, theta=-2e-5)),
     Edge("for whole numbers", lambda rng: (12, 2, -15, 3)),
     Edge("for angles of more than a turn", row_with(alpha=-7.0, theta=8.0)),
+    Edge("for angles of more than half a turn", row_with(alpha=4.0, theta=-4.0)),
 )
 
 
@@ -68,12 +70,32 @@ def dh_arm(rng, n=None):
 
 def dh_arm_turned(rng):
     rows, theta, base, tool = dh_arm(rng)
-    return rows, theta + 2 * np.pi, base, tool
+    return rows, _turned(theta), base, tool
+
+
+def _turned(theta):
+    """A whole turn further, or back."""
+    return theta + 2 * np.pi * (-1) ** np.arange(len(theta))
+
+
+def dh_arm_partly_at_zero(rng):
+    rows, theta, base, tool = dh_arm(rng, 4)
+    return rows, theta * [1, 0, 1, 0], base, tool
 
 
 def dh_arm_bare(rng):
     rows, theta, _, _ = dh_arm(rng)
     return rows, theta, np.eye(4), np.eye(4)
+
+
+def dh_arm_without_base(rng):
+    rows, theta, _, tool = dh_arm(rng)
+    return rows, theta, np.eye(4), tool
+
+
+def dh_arm_without_tool(rng):
+    rows, theta, base, _ = dh_arm(rng)
+    return rows, theta, base, np.eye(4)
 
 
 def dh_arm_at_zero(rng):
@@ -125,6 +147,12 @@ def screw(rng):
     return hinge(rng, rng.choice([0.0, rng.uniform(0.05, 0.2)]))
 
 
+def screw_in_a_plane(rng):
+    """Its axis is square to z, and x and y of it add up to 0; it slides backwards."""
+    w, q = np.array([1, -1, 0]) / np.sqrt(2), rng.uniform(-0.6, 0.6, 3)
+    return np.concatenate([w, np.cross(q, w) - 0.15 * w])
+
+
 def one_hinge(rng):
     return hinge(rng), angles(rng, 1)[0]
 
@@ -145,7 +173,10 @@ SCREWS = (
     Edge("where theta is negative", by(hinge, -0.8)),
     Edge("for whole numbers", lambda rng: (np.array([0, 0, 1, 2, -1, 0]), 2)),
     Edge("where theta is more than a turn", by(lambda rng: hinge(rng, 0.1), 8.0)),
-    Edge("where theta is tiny", by(lambda rng: hinge(rng, 0.1), 5e-5)),
+    Edge("where theta is less than minus a turn", by(lambda rng: hinge(rng, -0.1), -8.0)),
+    Edge("for a screw in a plane", by(screw_in_a_plane)),
+    Edge("where v is along omega", by(lambda rng: np.kron([1, 0.2], direction(rng)))),
+    Edge("where theta is tiny", by(lambda rng: hinge(rng, 0.1), 5e-6)),
     Edge("where theta is small", by(lambda rng: hinge(rng, 0.1), -0.006)),
 )
 
@@ -158,8 +189,13 @@ def poe_arm(rng, n=None, screw=screw):
 
 
 def poe_arm_turned(rng):
-    S, M, theta = poe_arm(rng, 3, hinge)
-    return S, M, theta + 2 * np.pi
+    S, M, theta = poe_arm(rng, 3, lambda rng: hinge(rng, 0.1))
+    return S, M, _turned(theta)
+
+
+def poe_arm_partly_at_zero(rng):
+    S, M, theta = poe_arm(rng, 4)
+    return S, M, theta * [1, 0, 1, 0]
 
 
 def poe_arm_at_zero(rng):

@@ -31,6 +31,10 @@ def _joint(kind, direction=None, point=None):
     return draw
 
 
+def _joint_of_length(kind, length):
+    return lambda rng: (kind, length * _direction(rng), _point(rng))
+
+
 def _any_joint(rng):
     return _joint(rng.choice(KINDS))(rng)
 
@@ -38,6 +42,8 @@ def _any_joint(rng):
 JOINTS = (
     Edge("for a hinge", _joint("revolute"), 2),
     Edge("for a slide", _joint("prismatic"), 2),
+    *(Edge("for a very short w", _joint_of_length(kind, 1e-4)) for kind in KINDS),
+    *(Edge("for a w of nearly length 1", _joint_of_length(kind, 1.00002)) for kind in KINDS),
     Edge("for a slide through the origin", _joint("prismatic", point=(0.0, 0.0, 0.0))),
     Edge("for a hinge through the origin", _joint("revolute", point=(0.0, 0.0, 0.0))),
     Edge("for joint 3 of the SCARA", _joint("prismatic", (0.0, 0.0, -1.0), (0.6, 0.0, 0.387))),
@@ -174,6 +180,11 @@ def _arm(turn=True, shift=True, n=None):
     return lambda rng: (_screws(rng, n), _pose(rng), _pose(rng, turn, shift))
 
 
+def _with_pitch(rng):
+    S, M, T = _arm(n=3)(rng)
+    return np.vstack([S[:3], S[3:] + rng.uniform(0.05, 0.3, 3) * S[:3]]), M, T
+
+
 def _kr6_on_a_table(rng):
     from coursekit import robots
 
@@ -193,6 +204,7 @@ FRAMES = (
     Edge("where it is only shifted", _arm(turn=False)),
     Edge("where it is only turned", _arm(shift=False)),
     Edge("for an arm with one joint", _arm(n=1)),
+    Edge("for screws with pitch", _with_pitch),
     Edge("for the KR6 on a table", _kr6_on_a_table),
     Edge("for whole numbers", _whole),
 )

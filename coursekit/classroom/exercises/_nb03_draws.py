@@ -98,6 +98,20 @@ def triangle(rng, out=1, up=1):
     return a1 + out * b * np.cos(phi), d1 + up * b * np.sin(phi), lengths
 
 
+def level_or_upright(rng, out, up):
+    """P at the height of the shoulder, or straight above it, without rounding."""
+    r, z, lengths = triangle(rng)
+    b = np.hypot(r - lengths[0], z - lengths[1])
+    return lengths[0] + out * b, lengths[1] + up * b, lengths
+
+
+def triangle_without(rng, which, sign=0):
+    """A length is 0, or negative."""
+    r, z, lengths = triangle(rng)
+    lengths[which] *= sign
+    return r, z, lengths
+
+
 def folded(rng):
     """P so near the shoulder that the angle there is more than 90 degrees."""
     lengths = rng.uniform([0.02, 0.3, 0.4, 0.03, 0.55], [0.1, 0.6, 0.45, 0.08, 0.6])
@@ -121,8 +135,9 @@ def bent(rng, t5, out4=1, out6=1):
     return (wrist((t4 + flip4, rng.uniform(*t5), t6 + flip6)),)
 
 
-def whole_wrist(rng):
-    return (whole_pose(wrist(np.pi / 2 * np.array([0, 1, 1])), 0)[:3, :3],)
+def whole_wrist(*quarters):
+    """Of quarter turns, without rounding."""
+    return lambda rng: (whole_pose(wrist(np.pi / 2 * np.array(quarters)), 0)[:3, :3],)
 
 
 # ---- all_solutions
@@ -154,9 +169,9 @@ def the_report_in_reach(rng):
     return forward(REPORT, KR6, TOOL), KR6, TOOL
 
 
-def whole_reachable(rng):
+def whole_reachable(rng, there=(3, -4)):
     R = turn(1, np.pi / 2) @ turn(0, np.pi / 2)  # the tool points down
-    return whole_pose(R, np.array([3, -4, 5]) + R[:, 0]), [1, 2, 5, 3, 4], 1
+    return whole_pose(R, np.array([*there, 5]) + R[:, 0]), [1, 2, 5, 3, 4], 1
 
 
 # ---- subproblem2 and subproblem3
@@ -210,6 +225,11 @@ def far_apart(rng):
     return k, x, y + 2 * k, np.hypot(d, 2)
 
 
+def opposite(rng):
+    """x and y in one plane with the axis, one on either side of it, without rounding."""
+    return [0, 0, 1], [3, 0, 1], [-4, 0, 1], 6
+
+
 def whole_distance(rng):
     a = int(rng.integers(1, 4))
     return [0, 0, 1], [3, 0, a], [0, 4, a], 5
@@ -253,6 +273,15 @@ def search(rng, n=6, turned=True, shifted=True):
         change[:3, :3] = turn(0, rng.uniform(0.2, 0.9)) @ turn(1, rng.uniform(0.2, 0.9))
     if shifted:
         change[:3, 3] = rng.uniform(0.1, 0.4, 3) * rng.choice([-1, 1], 3)
+    return J, here, here @ change
+
+
+def search_far_or_near(rng, angle, shift):
+    """A target turned by this angle about any axis."""
+    (J, here, _), k = search(rng), _unit(rng)
+    change = np.eye(4)
+    change[:3, :3] = np.column_stack([turned(k, axis, angle) for axis in np.eye(3)])
+    change[:3, 3] = shift * _unit(rng)
     return J, here, here @ change
 
 

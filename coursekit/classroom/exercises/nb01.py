@@ -131,7 +131,10 @@ EXERCISES = [
         compare="rotation",
         edges=(
             Edge("where base and tool are the identity", inputs.dh_arm_bare),
+            Edge("where the base is the identity", inputs.dh_arm_without_base),
+            Edge("where the tool is the identity", inputs.dh_arm_without_tool),
             Edge("where all joints are at zero", inputs.dh_arm_at_zero),
+            Edge("where some joints are at zero", inputs.dh_arm_partly_at_zero),
             Edge("where all offsets are zero", inputs.dh_arm_without_offsets),
             Edge("for an arm with one joint", lambda rng: inputs.dh_arm(rng, 1)),
             Edge("for an arm with seven joints", lambda rng: inputs.dh_arm(rng, 7)),
@@ -222,6 +225,7 @@ EXERCISES = [
         compare="rotation",
         edges=(
             Edge("where all joints are at zero", inputs.poe_arm_at_zero),
+            Edge("where some joints are at zero", inputs.poe_arm_partly_at_zero),
             Edge("where M is the identity", inputs.poe_arm_without_M),
             Edge("for an arm with one joint", lambda rng: inputs.poe_arm(rng, 1, inputs.hinge)),
             Edge("for an arm with slides only", lambda rng: inputs.poe_arm(rng, 3, inputs.slide)),

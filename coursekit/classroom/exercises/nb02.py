@@ -58,7 +58,8 @@ LINES = (
     Edge("for an axis along x", _line_along(2.0, 0.0, 0.0)),
     Edge("for an axis along y", _line_along(0.0, 0.5, 0.0)),
     Edge("for an axis along -z", _line_along(0.0, 0.0, -3.0)),
-    Edge("for a very short w", lambda rng: (0.01 * _direction(rng), _point(rng))),
+    Edge("for a very short w", lambda rng: (1e-4 * _direction(rng), _point(rng))),
+    Edge("for a w of nearly length 1", lambda rng: (1.00002 * _direction(rng), _point(rng))),
     Edge("for axis 5 of the KR6", lambda rng: (np.array([0, 1, 0]), np.array([0.9, 0, 0.435]))),
     Edge("for whole numbers", lambda rng: (np.array([0, 3, -4]), np.array([10, -20, 30]))),
 )
@@ -122,6 +123,12 @@ def _screw(rng, pitch, through=None):
     return np.concatenate([w, np.cross(q, w) + pitch * w])
 
 
+def _screw_in_a_plane(rng):
+    """Its axis is square to z, and x and y of it add up to 0."""
+    w = np.array([1, -1, 0]) / np.sqrt(2)
+    return (np.concatenate([w, np.cross(_point(rng), w) - 0.2 * w]),)
+
+
 def _one_screw(rng):
     return (_hinge(rng),)
 
@@ -133,7 +140,8 @@ SCREWS = (
     Edge("where v is zero", lambda rng: (_screw(rng, 0.0, np.zeros(3)),)),
     Edge("for axis 5 of the KR6", lambda rng: (np.array([0, 1, 0, -0.435, 0, 0.9]),)),
     Edge("for whole numbers", lambda rng: (np.array([0, 0, -1, 2, 3, 1]),)),
-    Edge("for a fine pitch", lambda rng: (_screw(rng, 8e-4),)),
+    Edge("for a fine pitch", lambda rng: (_screw(rng, 5e-6),)),
+    Edge("for an axis in a plane", _screw_in_a_plane),
 )
 
 

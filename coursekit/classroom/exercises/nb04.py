@@ -104,9 +104,9 @@ def _arm(rng, sign=-1):
     return theta2, [a1, a2, a3, d4, d6]
 
 
-def _arm_without(rng, which):
+def _arm_without(rng, which, sign=0.0):
     theta2, lengths = _arm(rng)
-    lengths[which] = 0.0
+    lengths[which] *= sign
     return theta2, lengths
 
 
@@ -254,6 +254,7 @@ EXERCISES = [
             Edge("where a3 is 0", lambda rng: _arm_without(rng, 2)),
             Edge("for whole numbers", lambda rng: (-2, [1, 5, 3, 4, 2])),
             Edge("where theta_2 is beyond half a turn", _arm_turned),
+            Edge("where a3 is negative", lambda rng: _arm_without(rng, 2, -1)),
         ),
         usual="where theta_2 is negative",
         residual=_off_axis_1,

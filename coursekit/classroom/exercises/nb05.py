@@ -200,6 +200,7 @@ EXERCISES = [
         edges=(
             Edge("for the Panda at theta = 0", draws.panda_stretched),
             Edge("for a singular J", draws.flat_rows, count=3),
+            Edge("for a nearly singular J", draws.nearly_flat_rows),
             Edge("for three joints", lambda rng: draws.rows(rng, 3)),
             Edge("for seven joints", lambda rng: draws.rows(rng, 7)),
         ),
@@ -233,6 +234,8 @@ EXERCISES = [
             Edge("for fewer joints than rows", lambda rng: draws.step(rng, (4, 3))),
             Edge("for one joint", lambda rng: draws.step(rng, (2, 1))),
             Edge("for a singular J", draws.singular_step),
+            Edge("where e and k are small", draws.slight_step),
+            Edge("where k is large", lambda rng: (*draws.step(rng)[:2], 5.0)),
             Edge("for whole numbers", draws.whole_step),
         ),
         residual=residuals.factor_missed,

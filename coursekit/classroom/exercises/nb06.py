@@ -117,7 +117,7 @@ EXERCISES = [
             Edge("for a half turn about y", attitudes.half_turn_about(1)),
             Edge("for a half turn about z", attitudes.half_turn_about(2)),
             Edge("for a half turn about any line", attitudes.half_turn, 2),
-            *attitudes.HALF_TURNS_IN_A_PLANE,
+            *(*attitudes.HALF_TURNS_IN_A_PLANE, *attitudes.SLIGHT_TURNS[:1]),
             *attitudes.HALF_TURNS_ABOUT_NEARLY_AN_AXIS,
             Edge("for nearly half a turn", attitudes.nearly_half_a_turn),
         ),
@@ -171,12 +171,11 @@ EXERCISES = [
             Edge(
                 "where R[0, 0] and R[2, 2] are negative", lambda rng: attitudes.away_from_lock(rng, (-2, 1))
             ),
-            Edge("where the pitch is steep", lambda rng: attitudes.away_from_lock(rng, pitch=(1.52, 1.54))),
+            Edge("where the pitch is steep", lambda rng: attitudes.away_from_lock(rng, pitch=(1.56, 1.57))),
             Edge("for no turn at all", lambda rng: (np.eye(3, dtype=int),)),
             Edge("for a quarter turn about z", attitudes.quarter_turn),
             *(Edge("for a half turn about an axis", attitudes.half_turn_about(i)) for i in range(3)),
-            Edge("where the yaw is a right angle", attitudes.one_of_a_right_angle(0)),
-            Edge("where the roll is a right angle", attitudes.one_of_a_right_angle(2)),
+            *attitudes.RIGHT_AND_SLIGHT_ANGLES,
         ),
         residual=residuals.zyx_missed,
         hints=(
@@ -326,7 +325,7 @@ EXERCISES = [
             Edge("for very nearly half a turn", attitudes.very_nearly_half_a_turn, tol=2e-9),
             *(Edge("for half a turn about an axis", attitudes.half_turn_about(i)) for i in range(3)),
             Edge("for half a turn about any line", attitudes.half_turn),
-            *attitudes.HALF_TURNS_IN_A_PLANE[::2],
+            *(*attitudes.HALF_TURNS_IN_A_PLANE[::2], *attitudes.SLIGHT_TURNS),
         ),
         residual=residuals.turn_missed,
         hints=(
@@ -370,7 +369,7 @@ EXERCISES = [
             Edge("where R_0 is the identity", attitudes.between(R_0=np.eye(3))),
             Edge("where R_1 is R_0", attitudes.nothing_between),
             Edge("where the short way leads through half a turn", attitudes.through_a_half_turn),
-            Edge("for a large turn between them", attitudes.far_apart),
+            *attitudes.FAR_AND_NEAR,
             Edge("for whole numbers", attitudes.between_whole),
         ),
         residual=residuals.way_missed,
