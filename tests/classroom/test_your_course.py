@@ -115,7 +115,7 @@ def test_an_exercise_that_ships_is_used_by_its_name(folder, monkeypatch):
     monkeypatch.chdir(folder)
     assert [e.name for e in course_here().exercises(STEM)] == ["screw_axis", "tip"]
     wrong = the_course().wrong("nb02")["screw_axis"]["plus"]
-    assert "w x q" in diagnose("screw_axis", wrong).text
+    assert "the other sign" in diagnose("screw_axis", wrong).text
     right = tables.solutions(the_course(), "nb02").screw_axis
     assert diagnose("screw_axis", right).right
     nb02 = str(the_course().exercises_path("nb02"))
