@@ -18,6 +18,7 @@ from tests.browser.test_kinematics import link
 from tests.classroom import leaks
 from tests.classroom.small import COURSE
 from tests.site.server import Visit
+from tests.unpacked import unpacked
 
 NOTEBOOKS = [the_course().notebook(unit) for unit in the_course().units]
 
@@ -45,7 +46,7 @@ def test_every_cell_that_students_get_is_on_the_page(pages, path):
 
 def test_no_answer_lies_anywhere(pages):
     texts = {
-        str(path.relative_to(pages)): path.read_text("utf-8")
+        str(path.relative_to(pages)): unpacked(path.read_text("utf-8"))
         for path in pages.rglob("*")
         if path.suffix in (".html", ".js", ".css", ".txt", ".json") and "mathjax" not in path.parts
     }

@@ -2,6 +2,7 @@
 // Without this script a page still reads: explorers are pictures, formulas are TeX.
 (() => {
   const root = document.documentElement;
+  const READS = 5_000; // ms: whoever is still here then reads
   root.dataset.script = "";
 
   // Storage may be forbidden (a page from a folder, a private window): then nothing is remembered.
@@ -98,6 +99,7 @@
     explainFolder();
   });
   if ("serviceWorker" in navigator && isSecureContext && location.protocol !== "file:") {
-    navigator.serviceWorker.register("offline.js").catch(() => {}); // without it the pages need the network
+    const keep = () => navigator.serviceWorker.register("offline.js").catch(() => {}); // without it the pages need the network
+    addEventListener("load", () => setTimeout(keep, READS)); // who runs a notebook at once does not wait for it
   }
 })();
