@@ -344,7 +344,9 @@ def test_the_stored_line_holds_the_verdict_and_still_gives_a_page(opened):
     line = repr(panel)
     assert line.endswith("; yours, fk_poe: every frame and the tool agree with the arm's, below 1e-9")
     assert "translucent" not in line
-    assert f'"{sketch.ROOT}"' in unpacked(view.to_html(panel)), "hidden where no kernel can compute it for another pose"
+    assert f'"{sketch.ROOT}"' in unpacked(view.to_html(panel)), (
+        "hidden where no kernel can compute it for another pose"
+    )
     assert reopened.page_of(line).startswith("<!DOCTYPE html>")
 
 
