@@ -14,6 +14,9 @@ import itertools
 import json
 import linecache
 import math
+import os
+import subprocess
+import sys
 import warnings
 from collections import Counter
 from functools import cache
@@ -133,6 +136,18 @@ def test_a_word_of_another_use_is_not_called_wrong(body):
     code = f"def joint_screw(kind, w, q):\n    {body}\n"
     told = diagnosis({"exercise": "joint_screw", "code": code})
     assert not told.right and "letter for letter" not in told.say
+
+
+def test_a_trial_may_be_the_first_that_uses_a_part_of_numpy(tmp_path):
+    """`sum` of an array imports the rest of itself then: a trial that fails at that is an edit overlooked."""
+    (tmp_path / "mine.py").write_text("def count(x):\n    return int((x > 1).sum())\n")
+    code = "from coursekit.classroom.repair.sandbox import Sandbox; import mine, numpy as np;"
+    code += "print(Sandbox(mine.count).compile()(np.array([0.0, 2.0, 3.0])))"
+    path = os.pathsep.join([str(tmp_path), str(HERE.parents[1])])
+    done = subprocess.run(
+        [sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True
+    )
+    assert done.stdout == "2\n", done.stderr
 
 
 def test_what_an_edit_is_warned_of_is_not_told():

@@ -7,6 +7,7 @@ counter in every loop. What could leave a trace (files, plots, random numbers, p
 from __future__ import annotations
 
 import ast
+import builtins
 import copy
 from collections.abc import Callable
 from functools import partial
@@ -56,6 +57,7 @@ class Sandbox:
         self.before = tuple(self._given(x) for x in before)
         self.whole = self.name = tree.name
         self.trees[self.whole] = tree, getattr(function, "__defaults__", None)
+        self.names["__builtins__"] = builtins  # numpy imports parts of its own when they are first used
         self.compile()
 
     def turn_to(self, name: str) -> ast.FunctionDef:
