@@ -141,7 +141,7 @@ def test_first_command_opens_the_course(machine):
     try:
         runtime = machine.course / ".venv" / "study" / "runtime"
         until = time.monotonic() + 900
-        while not list(runtime.glob("jpserver-*.json")):
+        while not any(facts.stat().st_size for facts in runtime.glob("jpserver-*.json")):  # made, then filled
             assert process.poll() is None, log.read_text()
             assert time.monotonic() < until, log.read_text()
             time.sleep(0.5)
