@@ -11,6 +11,7 @@ import os
 import re
 import shutil
 import signal
+import socket
 import subprocess
 import time
 import urllib.request
@@ -90,17 +91,17 @@ class Server:
             "/api/sessions", path=notebook, type="notebook", name=notebook, kernel={"name": "python3"}
         )
         address = f"{self.url.replace('http', 'ws', 1)}/api/kernels/{session['kernel']['id']}/channels"
-        socket = websocket.create_connection(
+        channel = websocket.create_connection(
             address, header=[f"Authorization: token {self.token}"], timeout=120
         )
         errors = []
         for cell in cells:
             if cell["cell_type"] == "code" and "raises-exception" not in cell["metadata"].get("tags", []):
-                errors += self._cell(socket, cell["source"])
-        socket.close()
+                errors += self._cell(channel, cell["source"])
+        channel.close()
         return errors
 
-    def _cell(self, socket, source):
+    def _cell(self, channel, source):
         header = {"msg_id": uuid.uuid4().hex, "msg_type": "execute_request", "version": "5.3"}
         header |= {"username": "", "session": uuid.uuid4().hex, "date": ""}
         content = {"code": source, "silent": False, "store_history": True, "user_expressions": {}}
@@ -112,10 +113,10 @@ class Server:
             "content": content,
             "channel": "shell",
         }
-        socket.send(json.dumps(message))
+        channel.send(json.dumps(message))
         errors = []
         while True:
-            received = socket.recv()
+            received = channel.recv()
             if isinstance(received, bytes):
                 continue  # what a widget sends to its view
             answer = json.loads(received)
@@ -125,6 +126,15 @@ class Server:
                 errors.append(f"{source}\n{answer['content']['ename']}: {answer['content']['evalue']}")
             if answer["msg_type"] == "status" and answer["content"]["execution_state"] == "idle":
                 return errors
+
+
+def answers(runtime):
+    """Whether a server runs: it writes its file a moment before it listens."""
+    with contextlib.suppress(OSError, ValueError, StopIteration):
+        facts = json.loads(next(runtime.glob("jpserver-*.json")).read_text())
+        socket.create_connection(("localhost", facts["port"]), timeout=5).close()
+        return True
+    return False
 
 
 def test_first_command_opens_the_course(machine):
@@ -141,7 +151,7 @@ def test_first_command_opens_the_course(machine):
     try:
         runtime = machine.course / ".venv" / "study" / "runtime"
         until = time.monotonic() + 900
-        while not any(facts.stat().st_size for facts in runtime.glob("jpserver-*.json")):  # made, then filled
+        while not answers(runtime):
             assert process.poll() is None, log.read_text()
             assert time.monotonic() < until, log.read_text()
             time.sleep(0.5)
