@@ -264,9 +264,9 @@ def misshapen(exercise: Exercise, parts: list[np.ndarray]) -> str:
 
 
 def _show_shape(shape: tuple) -> str:
-    return (
-        "one row of numbers, however long" if shape == (None,) else str(shape).replace("None", "any number")
-    )
+    if shape == (None,):
+        return "one row of numbers, however long"
+    return str(shape).replace("None", "any number")
 
 
 def nearest(name: str, names: Iterable[str]) -> str:

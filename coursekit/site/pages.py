@@ -38,6 +38,7 @@ _OF_MATHJAX = (
     "jax/output/HTML-CSS",
     "fonts/HTML-CSS/STIX-Web/woff",
 )
+_EXPLORER = "static/explorer.js"  # what the pages of all explorers have in common
 _COLUMNS = re.compile(r"\S {2,}\S")  # a line of a table or a matrix
 _WAITS = "This cell uses what you write above it: its result appears when the exercises are solved."
 
@@ -171,7 +172,7 @@ class _Body:
         file = f"pictures/{name}.png"
         (self.out / file).write_bytes(base64.b64decode(png))
         picture = f'<img src="{file}" alt="{html.escape(alt or "figure; its caption follows")}">'
-        page = reopened.page_of(line, common="../static/explorer.js")
+        page = reopened.page_of(line, common=f"../{_EXPLORER}")
         if page is None:
             return f'<figure class="picture">{picture}</figure>'
         explorer = self.explorers.setdefault(page, f"explorers/{name}.html")
@@ -234,7 +235,7 @@ def _static(folder: Path) -> None:
     style = (STATIC / "page.css").read_text(encoding="utf-8")
     (folder / "page.css").write_text(f"{light}\n{dark}\n{style}", encoding="utf-8")
     shutil.copy(STATIC / "page.js", folder / "page.js")
-    (folder / "explorer.js").write_text(common_script(), encoding="utf-8")
+    (folder.parent / _EXPLORER).write_text(common_script(), encoding="utf-8")
     source = formulas()
     for name in _OF_MATHJAX:
         here, there = source / name, folder / "mathjax" / name

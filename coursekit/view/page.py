@@ -23,8 +23,8 @@ def to_html(shown: Panel | Viewer, common: str = "") -> str:
     What only a kernel can compute is not shown for a pose that the sliders of the page have changed. Without
     WebGL the page shows a picture.
 
-    common : where a file with `common_script()` lies, from the page; many pages that share it weigh 0.2 MB
-        each. By default the page holds it.
+    common : address of a file with `view.page.common_script()`, seen from the page: many pages that share it
+        weigh 0.2 MB each. By default the page holds it.
 
     >>> from coursekit import robots, view
     >>> panel = view.explore(robots.planar_2r())

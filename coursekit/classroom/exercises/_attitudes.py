@@ -125,7 +125,11 @@ def away_from_lock(rng, quarters=(-2, -1, 0, 1), pitch=(0.2, 1.3)):
     """A rotation whose pitch, up or down, lies between these two: it is never a right angle."""
     yaw, roll = np.pi / 2 * rng.choice(quarters, 2) + rng.uniform(0.2, 1.3, 2)
     pitch = rng.choice([-1, 1]) * rng.uniform(*pitch)
-    return _turned_by(*((np.cos(angle), np.sin(angle)) for angle in (yaw, pitch, roll)))
+    return _turned_by(*map(_legs, (yaw, pitch, roll)))
+
+
+def _legs(angle):
+    return np.cos(angle), np.sin(angle)
 
 
 def _turned_by(yaw, pitch, roll):
@@ -140,7 +144,7 @@ def one_of_a_right_angle(which):
 
     def draw(rng):
         angles = rng.choice([-1, 1], 3) * rng.uniform(0.3, 0.9, 3)
-        turns = [(np.cos(angle), np.sin(angle)) for angle in angles]
+        turns = list(map(_legs, angles))
         turns[which] = 0.0, -1.0
         return _turned_by(*turns)
 
@@ -154,7 +158,7 @@ def tiny_turn(rng):
 
 def slight_angles(rng):
     angles = rng.choice([-1, 1], 3) * rng.uniform(2e-4, 5e-4, 3)
-    return _turned_by(*((np.cos(angle), np.sin(angle)) for angle in angles))
+    return _turned_by(*map(_legs, angles))
 
 
 RIGHT_AND_SLIGHT_ANGLES = (
@@ -167,6 +171,8 @@ SLIGHT_TURNS = (
     Edge("for a turn of some degrees", lambda rng: turn(direction(rng), 0.05)),
     Edge("for nearly half a turn", lambda rng: turn(direction(rng), np.pi - 5e-4)),
 )
+WHERE_SIGNS_ARE_LOST = *HALF_TURNS_IN_A_PLANE, SLIGHT_TURNS[0]  # of a quaternion
+WHERE_AN_AXIS_IS_LOST = *HALF_TURNS_IN_A_PLANE[::2], *SLIGHT_TURNS
 
 
 def between(t=None, R_0=None):

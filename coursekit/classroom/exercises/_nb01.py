@@ -147,8 +147,8 @@ def screw(rng):
     return hinge(rng, rng.choice([0.0, rng.uniform(0.05, 0.2)]))
 
 
-def screw_in_a_plane(rng):
-    """Its axis is square to z, and x and y of it add up to 0; it slides backwards."""
+def screw_square_to_z(rng):
+    """x and y of its axis add up to 0; it slides backwards."""
     w, q = np.array([1, -1, 0]) / np.sqrt(2), rng.uniform(-0.6, 0.6, 3)
     return np.concatenate([w, np.cross(q, w) - 0.15 * w])
 
@@ -174,7 +174,7 @@ SCREWS = (
     Edge("for whole numbers", lambda rng: (np.array([0, 0, 1, 2, -1, 0]), 2)),
     Edge("where theta is more than a turn", by(lambda rng: hinge(rng, 0.1), 8.0)),
     Edge("where theta is less than minus a turn", by(lambda rng: hinge(rng, -0.1), -8.0)),
-    Edge("for a screw in a plane", by(screw_in_a_plane)),
+    Edge("for an axis square to z", by(screw_square_to_z)),
     Edge("where v is along omega", by(lambda rng: np.kron([1, 0.2], direction(rng)))),
     Edge("where theta is tiny", by(lambda rng: hinge(rng, 0.1), 5e-6)),
     Edge("where theta is small", by(lambda rng: hinge(rng, 0.1), -0.006)),

@@ -123,8 +123,8 @@ def _screw(rng, pitch, through=None):
     return np.concatenate([w, np.cross(q, w) + pitch * w])
 
 
-def _screw_in_a_plane(rng):
-    """Its axis is square to z, and x and y of it add up to 0."""
+def _screw_square_to_z(rng):
+    """x and y of its axis add up to 0."""
     w = np.array([1, -1, 0]) / np.sqrt(2)
     return (np.concatenate([w, np.cross(_point(rng), w) - 0.2 * w]),)
 
@@ -141,7 +141,7 @@ SCREWS = (
     Edge("for axis 5 of the KR6", lambda rng: (np.array([0, 1, 0, -0.435, 0, 0.9]),)),
     Edge("for whole numbers", lambda rng: (np.array([0, 0, -1, 2, 3, 1]),)),
     Edge("for a fine pitch", lambda rng: (_screw(rng, 5e-6),)),
-    Edge("for an axis in a plane", _screw_in_a_plane),
+    Edge("for an axis square to z", _screw_square_to_z),
 )
 
 

@@ -117,7 +117,7 @@ EXERCISES = [
             Edge("for a half turn about y", attitudes.half_turn_about(1)),
             Edge("for a half turn about z", attitudes.half_turn_about(2)),
             Edge("for a half turn about any line", attitudes.half_turn, 2),
-            *(*attitudes.HALF_TURNS_IN_A_PLANE, *attitudes.SLIGHT_TURNS[:1]),
+            *attitudes.WHERE_SIGNS_ARE_LOST,
             *attitudes.HALF_TURNS_ABOUT_NEARLY_AN_AXIS,
             Edge("for nearly half a turn", attitudes.nearly_half_a_turn),
         ),
@@ -325,7 +325,7 @@ EXERCISES = [
             Edge("for very nearly half a turn", attitudes.very_nearly_half_a_turn, tol=2e-9),
             *(Edge("for half a turn about an axis", attitudes.half_turn_about(i)) for i in range(3)),
             Edge("for half a turn about any line", attitudes.half_turn),
-            *(*attitudes.HALF_TURNS_IN_A_PLANE[::2], *attitudes.SLIGHT_TURNS),
+            *attitudes.WHERE_AN_AXIS_IS_LOST,
         ),
         residual=residuals.turn_missed,
         hints=(

@@ -116,6 +116,7 @@ class _Search:
         self.fixed: list[tuple[Place, Variant]] = []  # edits that stand while others are tried
         self.chosen: dict[int, Variant] = {}
         self.ordinary: dict[int, Callable] = {}
+        # the answer is one whole number
         self.counts = all(len(e.right) == 1 and not e.right[0].ndim and e.right[0] % 1 == 0 for e in examples)
         self.box.names[PROBE], self.box.names[LOCALS] = self._probe, locals
 

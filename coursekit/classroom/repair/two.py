@@ -29,9 +29,9 @@ FIRST = 4  # edits that stand, one after the other: those that make most of the 
 
 def two_edits(search: _Search) -> str:
     """ "look at line 4: a sign; and at line 6: an index", '' if there are no two such edits."""
-    if (
-        search.counts or search.exercise.compare == "any_solution"
-    ):  # entries of one right answer need not be those of another
+    if search.counts:  # of a count nothing is right in part
+        return ""
+    if search.exercise.compare == "any_solution":  # entries of one right answer need not be those of another
         return ""
     if BUDGET // FIRST // search.cost < 2 * len(search.examples):  # too few trials to find anything
         return ""
