@@ -224,6 +224,12 @@ def _beyond_zero(rng):
     return np.sort(rng.choice([-1, 1], (4, 1)) * np.abs(limits), axis=1), sense, at_zero
 
 
+def _from_zero(rng):
+    """Ranges of which one end is the maker's zero itself: a number like any other."""
+    limits, sense, at_zero = _ranges(rng, 4)
+    return limits * rng.permuted([[0, 1], [1, 0], [0, 1], [1, 0]], axis=0), sense, at_zero
+
+
 def _s030(rng):
     limits = np.radians([(-180, 180), (-105, 140), (-155, 135), (-360, 360), (-145, 145), (-360, 360)])
     return limits, np.array([1.0, -1, 1, 1, 1, 1]), np.pi / 2 * np.array([0, 1, 1, 2, 2, 0])
@@ -234,6 +240,7 @@ RANGES = (
     Edge("where no sense agrees", lambda rng: _ranges(rng, 4, -1.0)),
     Edge("for one joint", lambda rng: _ranges(rng, 1, -1.0)),
     Edge("where the maker's zero is outside the range", _beyond_zero),
+    Edge("where a range begins or ends at the maker's zero", _from_zero),
     Edge("for the S030", _s030),
     Edge(
         "for whole numbers",
