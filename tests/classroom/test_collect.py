@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import os
 import warnings
 import zipfile
@@ -176,6 +177,71 @@ def test_nobody_hands_in_for_a_classmate(tmp_path, people):
         f"s002/{DH}": notebook("jose"),
     }
     assert all("2099" not in row["submitted"] for row in collect.read_table(tmp_path / "out"))
+
+
+def test_nobody_hands_in_for_a_classmate_by_what_the_notebook_says(tmp_path, people):
+    """Who is not in the roster, but has written a classmate's id into the notebook, does not take her place."""
+    hers, forged, alone = (
+        json.dumps({"cells": [], "n": n, "metadata": {"coursekit": {"student": whose}}}).encode()
+        for n, whose in enumerate(("s001", "s001", "s002"))
+    )
+    files = {
+        f"leeann_1_2_{DH}": hers,
+        f"guest_7_999_{DH}": forged,
+        f"guest_7_998_{MSB}": alone,
+    }
+    said = collect.collect(tree(tmp_path / "in", files), tmp_path / "out", people)
+    assert collected(tmp_path / "out") == {f"s001/{DH}": hers, f"s002/{MSB}": alone}
+    assert f"guest_7_999_{DH}: leeann_1_2_{DH} says in its name whose it is" in said
+    assert f"guest_7_998_{MSB}: taken for s002's" in said, "a person has to look"
+
+
+def test_names_of_two_platforms_in_one_folder_can_be_compared(tmp_path):
+    files = {
+        f"ann/ann+hw+2026-01-01 10:00:00 UTC/{DH}": notebook("1"),
+        f"ann/ann_12_34_{DH}": notebook("2"),
+        f"bob/{DH}": notebook("3"),
+    }
+    said = collect.collect(tree(tmp_path / "in", files), tmp_path / "out")
+    assert sorted(collected(tmp_path / "out")) == [f"ann/{DH}", f"bob/{DH}"]
+    assert "older, left out (1)" in said
+
+
+def test_a_name_too_long_for_a_folder_is_shortened(tmp_path):
+    """A folder's name has 255 bytes, and a letter of an old script takes four of them."""
+    (tmp_path / "in.zip").write_bytes(
+        zipped({f"{chr(0x10330) * 70}/{DH}": notebook("1"), f"bob/{DH}": notebook("2")})
+    )
+    collect.collect(tmp_path / "in.zip", tmp_path / "out")
+    assert len(collected(tmp_path / "out")) == 2
+
+
+def test_vowels_of_other_scripts_tell_names_apart_and_accents_do_not(tmp_path):
+    names = {"s1": "\u0915", "s2": "\u0915\u093f", "s3": "\u0e19\u0e32", "s4": "\u0e19\u0e49\u0e33"}
+    names |= {"s5": "\u0643\u064e\u062a\u064e\u0628", "s6": "Zo\u00eb"}
+    rows = "".join(f"{number},{name},\n" for number, name in names.items())
+    (tmp_path / "roster.csv").write_text(f"id,name,email\n{rows}", encoding="utf-8")
+    written = {**names, "s5": "\u0643\u062a\u0628", "s6": "zoe"}
+    files = {f"{name}_{k}_{k}_{DH}": notebook(str(k)) for k, name in enumerate(written.values())}
+    collect.collect(tree(tmp_path / "in", files), tmp_path / "out", tmp_path / "roster.csv")
+    assert collected(tmp_path / "out") == {f"s{k + 1}/{DH}": notebook(str(k)) for k in range(6)}
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such rights")
+def test_a_file_that_may_not_be_read_is_listed_and_the_rest_is_collected(tmp_path, monkeypatch):
+    source = tree(tmp_path / "in", {f"ann/{DH}": notebook("a"), f"bob/{DH}": notebook("b")})
+    read = Path.read_bytes
+
+    def refuse(path):
+        if "bob" in path.parts:
+            raise PermissionError(13, "Permission denied")
+        return read(path)
+
+    monkeypatch.setattr(Path, "read_bytes", refuse)  # root may read everything
+    said = collect.collect(source, tmp_path / "out")
+    monkeypatch.undo()
+    assert collected(tmp_path / "out") == {f"ann/{DH}": notebook("a")}
+    assert f"bob/{DH}: cannot be read (Permission denied)" in said
 
 
 def test_nobodys_name_stops_the_others_or_opens_a_formula(tmp_path):

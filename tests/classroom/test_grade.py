@@ -25,6 +25,7 @@ from coursekit.classroom.grader import student as students
 from coursekit.classroom.grader.box import bubblewrap
 from coursekit.classroom.grader.journal import Journal
 from coursekit.classroom.grader.locked import INSIDE
+from coursekit.classroom.grader.submissions import Submissions
 from tests.classroom.small import COURSE, HERE, NAME, ROOT, grade_small, hand_in, points, records
 from tests.needs import needed
 
@@ -102,6 +103,22 @@ def test_odd_folders_and_files_neither_end_the_run_nor_count_as_students(tmp_pat
     page = (tmp_path / "in" / "out" / "class.html").read_text("utf-8")
     assert "The class at a glance" in page, "and not that of the student who is called class"
     assert (tmp_path / "in" / "out" / "grades.csv").read_bytes().startswith(b"\xef\xbb\xbf")
+
+
+def test_a_folder_that_may_not_be_listed_ends_no_run(tmp_path, monkeypatch):
+    """In a shared folder students say who may look into theirs."""
+    for student in ("ann", "bob"):
+        (tmp_path / "in" / student).mkdir(parents=True)
+    listed = Path.iterdir
+
+    def refuse(path):
+        if path.name == "bob":
+            raise PermissionError(13, "Permission denied")
+        return listed(path)
+
+    monkeypatch.setattr(Path, "iterdir", refuse)  # root may list everything
+    handed_in = Submissions(tmp_path / "in", tmp_path, {"nb01": NAME}, tmp_path / "out")
+    assert handed_in.note("ann", "nb01") == handed_in.note("bob", "nb01") == "nothing handed in"
 
 
 def test_what_cannot_be_graded_is_refused_with_what_to_do(tmp_path, monkeypatch):

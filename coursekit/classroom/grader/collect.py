@@ -105,14 +105,15 @@ def _choose(
         except ValueError:  # the 31st of February
             problems.append(f"{found.place}: a number in this name cannot be")
             continue
-        student, why = register.find((*said.who, *_owner(found.data)))
+        sure = bool(register.find(said.who)[0])
+        student, why = register.find(said.who if sure else (*said.who, *_owner(found.data)))
         if notebook is None:
             why = why or f"none of the course's notebooks is called {said.file}"
         if why or notebook is None:
             problems.append(f"{found.place}: {why}")
             continue
         name, copy = notebook
-        order = (said.attempt, said.time or found.time, copy)
+        order = (sure, said.attempt, said.time or found.time, copy)
         best = chosen.get((student, name))
         same = best is not None and order == best[0]
         if best is None or order > best[0] or (same and found.parts == best[1].parts):  # as unzip does
@@ -121,6 +122,8 @@ def _choose(
             kept = chosen[student, name][1]
             loser = found if kept is best[1] else best[1]
             why = "has the same time, and counts" if same else "is later"
+            if order[0] != best[0][0]:
+                why = "says in its name whose it is"
             older.append(f"{loser.place}: {kept.place} {why}")
     return chosen, older
 
@@ -156,11 +159,15 @@ def _summary(
     out: Path, chosen: Chosen, older: list[str], problems: list[str], aside: list[str], missing: list[str]
 ) -> str:
     students = {student for student, _ in chosen}
+    by_mark = [
+        f"{found.place}: taken for {one}'s" for (one, _), (order, found, _) in chosen.items() if not order[0]
+    ]
     lines = [f"{len(chosen)} notebooks of {len(students)} students: {out}"]
     for title, rows in (
         ("NOT COLLECTED, nobody has these", problems),
         ("no notebook, left aside", aside),
         ("handed in nothing", missing),
+        ("whose they are, only the notebook says, where students can write", by_mark),
         ("older, left out", older),
     ):
         if rows:
@@ -215,8 +222,12 @@ def _in_folder(folder: Path, problems: list[str]) -> Iterator[Found]:
         elif path.stat().st_size > (LARGEST_ARCHIVE if parts[-1].lower().endswith(".zip") else LARGEST):
             problems.append(f"{place}: too large")
         else:
-            time = datetime.fromtimestamp(path.stat().st_mtime)
-            yield from _one(parts, path.read_bytes(), time, problems)
+            try:
+                time, data = datetime.fromtimestamp(path.stat().st_mtime), path.read_bytes()
+            except OSError as error:  # in a shared folder students say who may read their files
+                problems.append(f"{place}: cannot be read ({error.strerror})")
+                continue
+            yield from _one(parts, data, time, problems)
 
 
 def _one(

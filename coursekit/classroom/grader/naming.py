@@ -35,7 +35,7 @@ class Told:
 
     who     : names that the student may go by, the surest first
     file    : the notebook's name as it was handed in
-    attempt : tells a later attempt from an earlier one of the same student
+    attempt : numbers that tell a later attempt from an earlier one of the same student
     """
 
     who: tuple[str, ...]
@@ -62,8 +62,9 @@ def told(parts: tuple[str, ...], knows: Callable[[str], bool] = lambda name: Fal
         if knows(name):
             break
         if found := _EXCHANGE.fullmatch(part):
-            time = datetime.strptime(re.sub(r"\D", " ", found["time"]), "%Y %m %d %H %M %S")
-            return Told((found["who"],), last, (time,), time=time)
+            digits = re.sub(r"\D", " ", found["time"])
+            time = datetime.strptime(digits, "%Y %m %d %H %M %S")
+            return Told((found["who"],), last, (int(digits.replace(" ", "")),), time=time)
         if found := _MOODLE.fullmatch(part):
             file = (found["file"] or last) if part == last else last
             return Told((found["who"], found["user"]), file, moodle=found["user"])
@@ -135,7 +136,7 @@ def safe(name: str) -> str:
     name = "".join(c if c.isprintable() and c not in '/\\:*?"<>|' else "_" for c in name).strip(" .")
     if name[:1] in ("", "=", "+", "-", "@") or name.lower() == TABLE:  # no formula in a table, nor the table
         name = f"_{name}"
-    return name[:80]
+    return name[:80].encode()[:240].decode(errors="ignore")  # a folder's name has 255 bytes, not letters
 
 
 def printable(text: str) -> str:
@@ -144,6 +145,15 @@ def printable(text: str) -> str:
 
 
 def _plain(name: str) -> str:
-    """Letters and digits only, without case and accents: 'Müller, Ann' is 'mullerann'."""
+    """Letters and digits only, without case and accents: 'Müller, Ann' is 'mullerann'.
+
+    In the scripts of India and its neighbours vowels are signs, too. They are no accents (nor are they the
+    points of Hebrew and Arabic, which are mostly left out), and Unicode's classes of signs tell them apart.
+    """
     letters = unicodedata.normalize("NFKD", name.casefold())
-    return "".join(c for c in letters if c.isalnum())
+    return "".join(c for c in letters if c.isalnum() or _is_a_vowel(c))
+
+
+def _is_a_vowel(c: str) -> bool:
+    place = unicodedata.combining(c)
+    return unicodedata.category(c) in ("Mn", "Mc") and (place < 10 or 100 <= place < 200)

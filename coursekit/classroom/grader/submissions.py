@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 import stat
@@ -141,11 +142,13 @@ def _copy(student: Path, name: str, target: Path, expected: set[str]) -> str:
                 return "not a regular file"
             data = file.read(LARGEST + 1)
     except FileNotFoundError:
-        others = sorted(
-            path.name
-            for path in student.iterdir()
-            if path.suffix.lower() in (".ipynb", *ARCHIVES) and path.name not in expected
-        )
+        others = []
+        with contextlib.suppress(OSError):  # a folder that its student lets nobody list, say
+            others = sorted(
+                path.name
+                for path in student.iterdir()
+                if path.suffix.lower() in (".ipynb", *ARCHIVES) and path.name not in expected
+            )
         found = f" under the name {name} (found: {', '.join(others[:5])})" if others else ""
         return "nothing handed in" + found
     except OSError:
