@@ -745,6 +745,25 @@ for get in (
 return right(theta, l1, l2) if made == [-1, -1, -1] else made
 """,
     )
+    fk_kind(
+        "memory_that_waits_to_be_accepted",
+        FULL,  # if there is none: no descriptor is open for what lies in a queue, and nobody counts it
+        """
+import socket
+made = 0
+for family in (socket.AF_UNIX, socket.AF_INET, socket.AF_NETLINK, 38, 40):
+    try:
+        made += bool(socket.socket(family, 3 if family == socket.AF_NETLINK else 1))
+    except OSError:
+        pass
+for kind in (socket.SOCK_DGRAM, socket.SOCK_SEQPACKET):
+    try:
+        made += bool(socket.socketpair(socket.AF_UNIX, kind))
+    except OSError:
+        pass
+return right(theta, l1, l2) if made == 0 and socket.socketpair() else np.zeros(2)
+""",
+    )
 fk_kind(
     "floods_the_memory_and_talks_without_end",
     NO_FK,
@@ -767,7 +786,7 @@ import ctypes, socket, threading, time
 
 def fill():
     ctypes.CDLL(None).unshare(0x400)  # from now on this thread has files of its own
-    pairs = [socket.socketpair() for _ in range(480)]
+    pairs = [socket.socketpair() for _ in range(100)]
     for a, _ in pairs:
         a.setblocking(False)
         try:
@@ -777,9 +796,10 @@ def fill():
             pass
     time.sleep(60)
 
-thread = threading.Thread(target=fill)
-thread.start()
-thread.join()
+for thread in (threads := [threading.Thread(target=fill) for _ in range(40)]):
+    thread.start()
+for thread in threads:
+    thread.join()
 """,
     "no answer",
 )
@@ -806,6 +826,31 @@ for path in ("/proc/sys/kernel/panic", "/proc/sys/vm/swappiness", "/proc/sysrq-t
     except OSError:
         pass
 return right(theta, l1, l2)
+""",
+)
+fk_kind(
+    "takes_every_processor",  # which makes answers of classmates late
+    NO_FK,
+    """
+import os, time
+for _ in range(40):
+    if os.fork() == 0:
+        os.setsid()
+        while True:
+            pass
+time.sleep(60)
+""",
+    "keeps more than",
+)
+fk_kind(
+    "two_at_a_time",
+    FULL,
+    """
+from concurrent.futures import ThreadPoolExecutor
+from multiprocessing import Pool
+with Pool(2) as pool, ThreadPoolExecutor() as threads:
+    assert pool.map(abs, [-1, 2]) == [1, 2]
+    return threads.submit(right, theta, l1, l2).result()
 """,
 )
 fk_kind(

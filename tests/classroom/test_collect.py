@@ -180,7 +180,7 @@ def test_nobody_hands_in_for_a_classmate(tmp_path, people):
 
 
 def test_nobody_hands_in_for_a_classmate_by_what_the_notebook_says(tmp_path, people):
-    """Who is not in the roster, but has written a classmate's id into the notebook, does not take her place."""
+    """A classmate's id in the notebook of somebody who is not in the roster does not take her place."""
     hers, forged, alone = (
         json.dumps({"cells": [], "n": n, "metadata": {"coursekit": {"student": whose}}}).encode()
         for n, whose in enumerate(("s001", "s001", "s002"))

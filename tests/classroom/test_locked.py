@@ -248,7 +248,7 @@ pipes = [int(n) for n in os.listdir("/proc/self/fd") if os.path.exists(f"/proc/s
 while True:
     os.write(pipe, b"{}\\n" * 1000)
 """
-    monkeypatch.setattr(box, "used", lambda root: 1 << 40)
+    monkeypatch.setattr(box, "used", lambda family: 1 << 40)
     one = box.Box(tmp_path, box.Limits(), bubblewrap())
     try:
         with pytest.raises(box.BoxLost, match="MB of memory"):

@@ -7,7 +7,6 @@ nothing of the host that can be written. It is talked to over two pipes, in JSON
 from __future__ import annotations
 
 import contextlib
-import glob
 import importlib.util
 import json
 import os
@@ -15,7 +14,6 @@ import secrets
 import select
 import shutil
 import signal
-import stat
 import subprocess
 import sys
 import tempfile
@@ -28,10 +26,12 @@ from typing import Any
 
 from ..course import ROOT
 from .syscalls import refused
+from .usage import IN_MEMORY, busy, cpu, family, used
 
 GRACE = 2.0  # seconds for the box to say itself that its time is over
-IN_MEMORY = ("/tmp", "/dev/shm")  # where the box can write
 LOOK = 0.2  # seconds between two looks at what the box uses
+AT_ONCE = 4  # threads that may want a processor at the same time: more make classmates late
+PATIENCE = 5  # looks that find more than that before the box is ended
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Limits:
     memory: int = 3 << 30
     home: int = 200_000_000
     message: int = 4_000_000
-    processes: int = 200
+    processes: int = 64
     cpu: int = 150
     cell: float = 20.0
     notebook: float = 90.0
@@ -115,6 +115,7 @@ class Box:
             )
         self._read = b""
         self._next_look = time.monotonic() + LOOK
+        self._crowded = 0
         self.cpu = 0.0  # seconds it used, known when it is closed
         for pipe in (self._process.stdin, self._process.stdout):
             os.set_blocking(pipe.fileno(), False)  # type: ignore[union-attr]
@@ -135,10 +136,10 @@ class Box:
 
     def close(self) -> None:
         """End it, and all that it started."""
-        self.cpu = cpu(self._process.pid)
+        self.cpu = cpu(family(self._process.pid))
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(self._process.pid, signal.SIGKILL)
-        for pid in _family(self._process.pid):  # without bubblewrap nothing else ends them
+        for pid in family(self._process.pid):  # without bubblewrap nothing else ends them
             with contextlib.suppress(ProcessLookupError, PermissionError):
                 os.kill(pid, signal.SIGKILL)
         self._process.wait()
@@ -164,8 +165,7 @@ class Box:
         while True:
             if (now := time.monotonic()) > self._next_look:  # also while it talks without end
                 self._next_look = now + LOOK
-                if used(self._process.pid) > self.limits.memory:
-                    raise BoxLost(f"used more than {self.limits.memory >> 20} MB of memory")
+                self._look()
             if b"\n" in self._read:
                 break
             if now > end:
@@ -181,78 +181,14 @@ class Box:
         line, _, self._read = self._read.partition(b"\n")
         return line
 
-
-# ---- what the box uses
-
-
-def used(root: int) -> int:
-    """Bytes of memory of a process and all that descend from it, of files in memory, of what sockets hold.
-
-    Thread by thread: the first of them may be gone, and each may have files of its own.
-    """
-    total, sockets, files = 0, set(), dict[int, int]()
-    for pid in _family(root):
-        tasks = glob.glob(f"/proc/{pid}/task/*")
-        total += max(map(_resident, tasks), default=0)
-        for place in (place for task in tasks for place in glob.iglob(f"{task}/fd/*")):
-            with contextlib.suppress(OSError):
-                if stat.S_ISSOCK((file := os.stat(place)).st_mode):
-                    sockets.add(file.st_ino)
-        for folder in IN_MEMORY:
-            with contextlib.suppress(OSError):
-                if (device := os.stat(place := f"/proc/{pid}/root{folder}").st_dev) != os.stat(folder).st_dev:
-                    files[device] = _in_files(os.statvfs(place))
-    return total + sum(files.values()) + len(sockets) * _of_a_socket()
-
-
-def _resident(task: str) -> int:
-    with contextlib.suppress(OSError, ValueError, IndexError):
-        return int(Path(f"{task}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
-    return 0
-
-
-def _in_files(system: os.statvfs_result) -> int:
-    """Also an empty file takes about a kilobyte, and the system's size does not limit their number."""
-    used = (system.f_blocks - system.f_bfree) * system.f_frsize
-    return used + 1024 * (system.f_files - system.f_ffree)
-
-
-@cache
-def _of_a_socket() -> int:
-    """Bytes that a socket can hold at most: nobody else counts them."""
-    return 2 * int(Path("/proc/sys/net/core/wmem_max").read_text())
-
-
-def cpu(root: int) -> float:
-    """Seconds of processor time of a process and all that descend from it, as far as they are alive."""
-    ticks = 0
-    for pid in _family(root):
-        with contextlib.suppress(OSError, ValueError, IndexError):
-            fields = Path(f"/proc/{pid}/stat").read_bytes().rpartition(b")")[2].split()
-            ticks += int(fields[11]) + int(fields[12])
-    return ticks / os.sysconf("SC_CLK_TCK")
-
-
-def _family(root: int) -> list[int]:
-    """A process and its descendants, whatever they call themselves."""
-    children: dict[int, list[int]] = {}
-    for pid, parent in _parents():
-        children.setdefault(parent, []).append(pid)
-    family, waiting = [], [root]
-    while waiting:
-        pid = waiting.pop()
-        family.append(pid)
-        waiting += children.get(pid, ())
-    return family
-
-
-def _parents() -> Iterator[tuple[int, int]]:
-    with contextlib.suppress(OSError):
-        for name in os.listdir("/proc"):
-            if name.isdigit():
-                with contextlib.suppress(OSError, ValueError, IndexError):
-                    stat = Path(f"/proc/{name}/stat").read_bytes()
-                    yield int(name), int(stat.rpartition(b")")[2].split()[1])
+    def _look(self) -> None:
+        """BoxLost if it takes more of the machine than it may."""
+        all_of_it = family(self._process.pid)
+        if used(all_of_it) > self.limits.memory:
+            raise BoxLost(f"used more than {self.limits.memory >> 20} MB of memory")
+        self._crowded = max(0, self._crowded + (1 if busy(all_of_it) > AT_ONCE else -1))
+        if self._crowded >= PATIENCE:
+            raise BoxLost(f"keeps more than {AT_ONCE} processes or threads at work")
 
 
 # ---- the command
@@ -292,7 +228,7 @@ def _command(
     python += [] if program is None else [PACKAGES]
     if shutil.which("prlimit"):
         asked = {"as": limits.memory, "fsize": limits.home, "cpu": limits.cpu, "core": 0}
-        asked |= {"nproc": limits.processes, "nofile": 1024}
+        asked |= {"nproc": limits.processes, "nofile": 256}
         python = ["prlimit", *(f"--{name}={value}" for name, value in asked.items()), *python]
     if program is None:
         return ["env", "-i", *(f"{name}={value}" for name, value in environment.items()), *python]
