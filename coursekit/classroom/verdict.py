@@ -2,7 +2,7 @@
 
 1. it cannot be judged: not written, raises, returns no such thing, changes its arguments
 2. right
-3. a mistake that has a name (the hints of the exercise)
+3. a mistake that has a name (the hints of the exercise), and its line if `repair` finds it
 4. what was done to the right answer (`transforms`)
 5. where the code is wrong (`repair`); only with the function itself
 6. what is right already, in the words of the exercise (`already`)
@@ -105,7 +105,8 @@ def verdict(
     if found:
         hint = None if found.step == "changed" else _named(exercise, examples, answers)
         if hint:
-            return Verdict("named", hint.text, step=hint.key, example=found.example)
+            found = Verdict("named", hint.text, step=hint.key, example=found.example)
+            return _and_its_line(found, exercise, function, examples, good, attempts)
         return _placed(found, exercise, function, examples, good, attempts)
     if all(good) and _rounded(exercise, examples, answers):
         return Verdict("named", "your numbers are rounded: give them as they are", step="rounded", example=0)
@@ -126,7 +127,8 @@ def verdict(
             )
             return Verdict("named", text, step="whole", example=first)
     if hint:
-        return Verdict("named", hint.text, step=hint.key, example=first)
+        found = Verdict("named", hint.text, step=hint.key, example=first)
+        return _and_its_line(found, exercise, function, examples, good, attempts)
     if text := _other_length(exercise, examples, answers):
         found = Verdict("misfit", text, step="misfit", example=first)
         return _placed(found, exercise, function, examples, good, attempts)
@@ -134,7 +136,8 @@ def verdict(
         return found
     also = _already_and_residual(exercise, examples, answers, good, function)
     if function and (text := ignored(exercise, function)):
-        return Verdict("named", text, also, "ignored", first)
+        found = Verdict("named", text, also, "ignored", first)
+        return _and_its_line(found, exercise, function, examples, good, attempts)
     if text := done_to_the_right_answer(exercise, examples, answers):
         found = Verdict("named", text, step="done", example=first)
         return _placed(found, exercise, function, examples, good, attempts)
@@ -298,11 +301,20 @@ def _placed(found: Verdict, exercise: Exercise, function, examples, good, attemp
     return replace(found, say=f"{found.say}; {place}", mended=place.removeprefix("look at "))
 
 
-def _repaired(exercise: Exercise, function, examples, good, attempts) -> str:
+def _and_its_line(found: Verdict, exercise: Exercise, function, examples, good, attempts) -> Verdict:
+    """A mistake that has its name, and the line in which it was made, where that can be found."""
+    place = function and _repaired(exercise, function, examples, good, attempts, named=True)
+    if not place:
+        return found
+    text = f". L{place[1:]}" if ". " in found.say else f"; {place}"
+    return replace(found, say=found.say + text)
+
+
+def _repaired(exercise: Exercise, function, examples, good, attempts, named=False) -> str:
     wrong_first = sorted(range(len(examples)), key=lambda k: (good[k], attempts[k].cost))
     costs = sorted(tried.cost for tried in attempts)
     cost = max(attempts[wrong_first[0]].cost, costs[len(costs) // 2] // 4)  # the first may return at once
-    return repair(exercise, function, [examples[k] for k in wrong_first], cost)
+    return repair(exercise, function, [examples[k] for k in wrong_first], cost, named)
 
 
 # ---- 6 and 7: what is right already, and by how much the rest misses

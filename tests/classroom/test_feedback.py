@@ -123,6 +123,44 @@ def test_what_was_wrong_is_said_however_it_was_written(exercise, code, say):
     assert say in diagnosis({"exercise": exercise, "code": code}).say
 
 
+FASTEST = """
+def largest_speed(q, points, v_max):
+    slope = np.abs(np.diff(q, axis=0)) / np.linalg.norm(np.diff(points, axis=0), axis=1)[:, None]
+    j = np.argmax(slope.max(axis=0))
+    return v_max[j] / slope[:, j].max()
+"""
+
+
+@pytest.mark.parametrize(
+    "exercise, code, say",
+    [
+        (
+            "fk_dh",
+            "def fk_dh(rows, theta, base, tool):\n    T = base\n"
+            "    for (a, alpha, d, offset), q in zip(rows, theta):\n"
+            "        T = T @ dh_transform(a, alpha, d, q + offset)\n"
+            "    return T\n",
+            "the last factor takes frame n to the tool; look at line 5",
+        ),
+        (
+            "slerp",
+            "def slerp(R_0, R_1, t):\n    return R_0 @ lie.exp3(angle_axis(R_0.T @ R_1))\n",
+            "it does not use its argument `t`; look at line 2",
+        ),
+        ("largest_speed", FASTEST, "then look for the smallest. Look at line 3"),
+        (
+            "adjoint",
+            "def turned(p, R): return R @ lie.hat3(p)\n\n\ndef adjoint(T):\n    A = np.zeros((6, 6))\n"
+            "    A[:3, :3] = A[3:, 3:] = T[:3, :3]\n    A[3:, :3] = turned(T[:3, 3], T[:3, :3])\n"
+            "    return A\n",
+            "then cross with p; look at line 1 of `turned`",
+        ),
+    ],
+)
+def test_a_mistake_with_a_name_has_its_line(exercise, code, say):
+    assert say in diagnosis({"exercise": exercise, "code": code}).say
+
+
 @pytest.mark.parametrize(
     "body",
     [

@@ -49,13 +49,14 @@ class _Hit:
     gain: float = 1.0  # of `two`: how much more of the answers is right with it
 
 
-def repair(exercise: Exercise, function: Callable, examples: list, cost: int) -> str:
+def repair(exercise: Exercise, function: Callable, examples: list, cost: int, named: bool = False) -> str:
     """ "look at line 4: a sign": place and kind of the edit that makes the function right on all examples.
 
     '' if there is none.
 
     examples : of `verdict.Example`, those where the function is wrong first
     cost : lines that one call of the function executes
+    named : the mistake has a name already: "look at line 4" is all that is asked for, of one edit
     """
     with np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # what an edit is warned of is not the student's matter
@@ -65,8 +66,12 @@ def repair(exercise: Exercise, function: Callable, examples: list, cost: int) ->
             return ""
         if hits := search.hits():
             likelier = _in_a_helper(search, min(hit.rank for hit in hits))
-            return likelier or _told(search, hits, search.owner())
-        return _in_a_helper(search) or two_edits(search)
+            told = likelier or _told(search, hits, search.owner())
+        else:
+            told = _in_a_helper(search) or ("" if named else two_edits(search))
+    if named:
+        return told.partition(":")[0] if told.startswith("look at line") else ""
+    return told
 
 
 def _in_a_helper(search: _Search, below: int = RANKS) -> str:
