@@ -126,6 +126,7 @@ def _settings(lite: Path, title: str) -> None:
     quiet = {"fetchNews": "false", "checkForUpdates": False}
     overrides = {
         "@jupyterlab/apputils-extension:notification": quiet,
+        "@jupyterlab/docmanager-extension:plugin": {"autosaveInterval": 5},  # seconds: a tab is soon closed
         "@jupyterlab/apputils-extension:themes": {"adaptive-theme": True},  # light or dark as the system
     }
     (lite / "overrides.json").write_text(json.dumps(overrides), encoding="utf-8")

@@ -112,7 +112,7 @@
 #ck-bar :focus-visible { outline: 2px solid var(--jp-brand-color1); }`;
 
   const LIMITS = `<p><b>The stop button</b> cannot interrupt Python here. <code>check</code> ends an endless loop by itself. For any other:
-<button data-do="again">Restart and run again what you ran</button></p>
+<button data-do="again">Restart Python, run the other cells again</button></p>
 <p><b>One notebook at a time.</b> Each running one needs several hundred MB; close the kernel of one before you start the next
 (menu Kernel, Shut Down).</p>
 <p><b>Safari</b> was not tried. Chromium and Firefox were.</p>
@@ -136,13 +136,14 @@
     const where = make("span", { class: "ck-where" });
     const state = make("span", { class: "ck-state", role: "status" });
     const news = make("span", { class: "ck-news" });
+    const warn = make("b", { class: "ck-warn", role: "status" });
     const save = make("button", { "data-do": "save" }, "Save a copy of all my work");
     const bring = make("button", { "data-do": "bring" }, "Bring work back");
     const file = make("input", { type: "file", accept: ".zip", hidden: "", "aria-label": "a zip saved here before" });
     const limits = make("details", {}, make("summary", {}, "What does not work here"));
     limits.append(make("div"));
     limits.lastChild.innerHTML = LIMITS;
-    const bar = make("div", { id: "ck-bar", role: "region", "aria-label": "Where your work is" }, where, save, bring, file, limits, news, state);
+    const bar = make("div", { id: "ck-bar", role: "region", "aria-label": "Where your work is" }, where, save, bring, file, limits, news, warn, state);
     document.head.append(make("style", {}, STYLE));
     document.body.append(bar);
     new ResizeObserver(() => {
@@ -177,12 +178,53 @@
       },
       bring() { file.value = ""; file.click(); },
       async again() {
-        await app.commands.execute("kernelmenu:restart-and-runall").catch(() => app.commands.execute("notebook:restart-run-all"));
+        limits.open = false;
+        const ran = ended();
+        round += 1;
+        say("Python starts anew");
+        await app.shell.currentWidget.context.sessionContext.restartKernel();
+        await runAgain(ran);
       },
+      resume: () => runAgain(ended()),
       update: () => takeIn(),
     };
 
-    function say(words) { state.textContent = words; }
+    function say(words, name, label) { // and a button, if something can be done
+      state.replaceChildren(words, ...(name ? [" ", make("button", { "data-do": name }, label)] : []));
+    }
+
+    // --- Python starts anew with each page, and when it is told to: what had run is run again, cell by cell, also after
+    // one that fails. A cell that never came to its end has no number and is left out: it may be the endless loop.
+    let begun = 0, round = 0; // when the cell that runs was first seen to; which of the rounds of cells goes on
+    const session = () => app.shell.currentWidget?.context?.sessionContext?.session;
+    const ended = () => [...(app.shell.currentWidget?.content?.widgets || [])].filter(({ model }) => model?.type === "code" && model.executionCount).map(({ model }) => model.id);
+
+    async function runAgain(ids) {
+      const { content } = app.shell.currentWidget, { activeCellIndex } = content;
+      round += 1;
+      const mine = round;
+      for (const [k, id] of ids.entries()) {
+        say(`Runs again what had run: ${k + 1} of ${ids.length}`);
+        begun = 0;
+        content.deselectAll();
+        content.activeCellIndex = content.widgets.findIndex(({ model }) => model.id === id);
+        await app.commands.execute("notebook:run-cell");
+        if (round !== mine) return;
+      }
+      content.activeCellIndex = activeCellIndex;
+      say("Python is ready; what had run before has run again.");
+    }
+
+    const greeted = new WeakSet();
+    function greet({ context }) { // a notebook whose cells ran in another Python
+      if (greeted.has(context)) return;
+      greeted.add(context);
+      if (ended().length) say(`${/^Python/.test(state.textContent) ? "" : state.textContent} Python knows nothing yet of what ran before.`, "resume", "Run it again");
+      context.sessionContext.iopubMessage.connect((_, { header }) => {
+        if (header.msg_type === "execute_input" && state.querySelector("[data-do=resume]")) say("");
+      });
+    }
+
     const guarded = (act) => Promise.resolve().then(act).catch((error) => say(`That did not work: ${error.message}`));
     bar.addEventListener("click", ({ target }) => {
       const name = target.dataset && target.dataset.do;
@@ -274,18 +316,54 @@
     function watchStart() {
       const begun = Date.now();
       const timer = setInterval(() => {
-        const widget = app.shell.currentWidget;
-        const session = widget && widget.context && widget.context.sessionContext && widget.context.sessionContext.session;
-        const status = session && session.kernel && session.kernel.status;
+        const status = session()?.kernel?.status;
         const seconds = Math.round((Date.now() - begun) / 1000);
         if (status === "idle" || status === "busy") {
           clearInterval(timer);
+          setTimeout(keepPages, READS);
           if (/^Python starts/.test(state.textContent)) say("Python is ready.");
+          watchRuns();
         } else if (!state.textContent || /^Python starts/.test(state.textContent)) {
           const slow = seconds > 180 ? " This is longer than usual: reload the page, or try another browser." : "";
           say(`Python starts (${seconds} s; the first time about a minute).${slow}`);
         }
       }, 1000);
+    }
+
+    // --- a button that cannot do what it says, and a cell that does not end
+    const LONG = 20_000, READS = 5_000; // ms
+    function watchRuns() {
+      const loop = (words) => say(`${words} The stop button cannot interrupt Python here.`, "again", "Restart it, run the other cells again");
+      app.commands.commandExecuted.connect((_, { id }) => /interrupt/.test(id) && loop(begun ? "It still runs." : ""));
+      setInterval(() => {
+        const status = session()?.kernel?.status;
+        if (status === "idle") greet(app.shell.currentWidget);
+        if (status !== "busy") {
+          if (begun && state.querySelector("[data-do=again]")) say("Python is ready.");
+          begun = 0;
+        } else if (!begun) begun = Date.now();
+        else if (Date.now() - begun > LONG && !state.querySelector("[data-do=again]")) loop("Python has run for 20 s.");
+      }, 1000);
+    }
+
+    // --- what is written is kept when the page goes out of sight: a telephone may never come back to it
+    document.addEventListener("visibilitychange", () => {
+      for (const { context } of document.hidden ? app.shell.widgets("main") : []) if (context?.model?.dirty) context.save();
+    });
+
+    // The pages to read are kept, too, for whoever came by them too quickly (page.js waits until they are read).
+    function keepPages() {
+      navigator.serviceWorker?.register(new URL("../offline.js", root)).catch(() => {}); // without it they need the network
+    }
+
+    function onlyOne() { // the lock is held as long as this page lives
+      const name = `coursekit ${root}`, forever = new Promise(() => {});
+      navigator.locks?.request(name, { ifAvailable: true }, (lock) => {
+        if (lock) return forever;
+        warn.textContent = "The course is open in another tab, too: write in one of them only.";
+        navigator.locks.request(name, () => { warn.textContent = ""; return forever; });
+        return undefined;
+      });
     }
 
     // --- a page that is loaded again opens the notebook that was open (JupyterLab takes its name out of the address)
@@ -311,6 +389,7 @@
       const last = memory.get("open");
       if (named || !last || [...app.shell.widgets("main")].some((widget) => widget.context)) return;
       await app.commands.execute("docmanager:open", { path: last });
+      for (const widget of app.shell.widgets("main")) if (widget.id.startsWith("launcher")) widget.close();
     }
 
     // Firefox asks the reader, who may not answer: nothing waits for it.
@@ -319,6 +398,7 @@
     app.restored.then(() => {
       app.shell.currentChanged.connect(remember);
       remember();
+      onlyOne();
       watchStart();
       return guarded(reopen).then(() => guarded(lookForNews)).then(() => {
         if (innerWidth < 700) app.shell.collapseLeft(); // a phone has no room for the list of files
