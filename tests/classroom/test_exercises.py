@@ -61,7 +61,8 @@ def test_the_solution_is_right_on_many_inputs_and_keeps_the_laws(course, unit, e
 
 
 @pytest.mark.parametrize("course, unit, exercise, hint", HINTS)
-def test_a_typical_mistake_gets_its_own_hint(course, unit, exercise, hint):
+def test_a_typical_mistake_gets_its_own_hint(course, unit, exercise, hint, monkeypatch):
+    monkeypatch.setattr("coursekit.classroom.verdict.repair", lambda *_: "")  # its line: test_feedback
     found = verdict(course, unit, exercise, course.wrong(unit)[exercise.name][hint.key])
     assert (found.kind, found.step, found.say) == ("named", hint.key, hint.text)
 

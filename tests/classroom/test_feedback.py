@@ -176,6 +176,21 @@ def test_a_word_of_another_use_is_not_called_wrong(body):
     assert not told.right and "letter for letter" not in told.say
 
 
+def test_a_line_is_found_where_a_function_has_arguments_by_name_alone():
+    """`*, sign` of a function of the student's own ended the check with an error, and a default was lost."""
+    code = """
+def lever(w, q, *, sign, power=1):
+    return (-sign) ** power * np.cross(w, q)
+
+
+def joint_screw(kind, w, q):
+    w = w / np.linalg.norm(w)
+    return np.r_[w, lever(w, q, sign=-1)] if kind == "revolute" else np.r_[np.zeros(3), w]
+"""
+    told = diagnosis({"exercise": "joint_screw", "code": code})
+    assert "look at line" in told.say, told.say
+
+
 def test_a_trial_may_be_the_first_that_uses_a_part_of_numpy(tmp_path):
     """`sum` of an array imports the rest of itself then: a trial that fails at that is an edit overlooked."""
     (tmp_path / "mine.py").write_text("def count(x):\n    return int((x > 1).sum())\n")

@@ -36,7 +36,8 @@ def near(png: bytes, color: int, slack: int = 40) -> int:
 
 
 @pytest.mark.parametrize("unit, exercise", SEEN, ids=[e.name for _, e in SEEN])
-def test_every_typical_mistake_can_be_drawn(unit, exercise):
+def test_every_typical_mistake_can_be_drawn(unit, exercise, monkeypatch):
+    monkeypatch.setattr("coursekit.classroom.verdict.repair", lambda *_: "")  # which is nothing to see
     pictures = [pictured(unit, exercise, f) for f in COURSE.wrong(unit)[exercise.name].values()]
     drawn = [png for png in pictures if png]
     assert len(drawn) >= len(pictures) / 2

@@ -51,12 +51,12 @@ class Sandbox:
     def __init__(self, function: Callable) -> None:
         self.ticks, self.most = 0, TICKS
         self.names: dict[str, Any] = {TICK: self._tick, "print": lambda *a, **k: None, "__name__": "trial"}
-        self.trees: dict[str, tuple[ast.FunctionDef, tuple | None]] = {}  # of the functions that it calls
+        self.trees: dict[str, tuple[ast.FunctionDef, Callable]] = {}  # and of those that it calls
         function, before = own(function)
         tree = self._copy(function)
         self.before = tuple(self._given(x) for x in before)
         self.whole = self.name = tree.name
-        self.trees[self.whole] = tree, getattr(function, "__defaults__", None)
+        self.trees[self.whole] = tree, function
         self.names["__builtins__"] = builtins  # numpy imports parts of its own when they are first used
         self.compile()
 
@@ -68,8 +68,7 @@ class Sandbox:
 
     def compile(self) -> Callable:
         """The function as the tree stands now that may be edited."""
-        tree, defaults = self.trees[self.name]
-        self.names[self.name] = self._made(tree, self.name, defaults)  # it may call itself
+        self.names[self.name] = self._made(self.name, *self.trees[self.name])  # it may call itself
         whole = self.names[self.whole]
         return partial(whole, *self.before) if self.before else whole
 
@@ -93,10 +92,13 @@ class Sandbox:
             return
         setattr(owner, name, lambda *given, **named: self.names[key](owner, *given, **named))
 
-    def _made(self, tree: ast.FunctionDef, name: str, defaults: tuple | None) -> FunctionType:
+    def _made(self, name: str, tree: ast.FunctionDef, function: Callable) -> FunctionType:
+        """The function of this tree, with the defaults that it was given."""
         code = compile(ast.Module([tree], []), "<trial>", "exec")
         inner = next(c for c in code.co_consts if isinstance(c, CodeType) and c.co_name == tree.name)
-        return FunctionType(inner, self.names, name, defaults)
+        made = FunctionType(inner, self.names, name, getattr(function, "__defaults__", None))
+        made.__kwdefaults__ = getattr(function, "__kwdefaults__", None)
+        return made
 
     def _tick(self) -> None:
         self.ticks += 1
@@ -111,7 +113,9 @@ class Sandbox:
         tree.lineno = min([tree.lineno, *(node.lineno for node in tree.decorator_list)])  # as Python counts
         tree.decorator_list = []  # what they made of it is another function: this one stands within it
         tree.returns = None
-        tree.args.defaults, tree.args.kw_defaults = [ast.Constant(None) for _ in tree.args.defaults], []
+        none = ast.Constant(None)  # in place of what is computed at the `def`: `_made` gives its value
+        tree.args.defaults = [none for _ in tree.args.defaults]
+        tree.args.kw_defaults = [default and none for default in tree.args.kw_defaults]
         for argument in ast.walk(tree.args):
             if isinstance(argument, ast.arg):
                 argument.annotation = None
@@ -170,8 +174,8 @@ class Sandbox:
         """One of the student's own functions, with counted loops and without a way into the notebook."""
         self.names[name] = None  # so that functions that call each other come to an end
         tree = self._copy(function)
-        self.trees[name] = tree, function.__defaults__
-        return self._made(tree, name, function.__defaults__)
+        self.trees[name] = tree, function
+        return self._made(name, tree, function)
 
 
 def _is_errstate(item: ast.withitem) -> bool:
