@@ -196,6 +196,13 @@ def test_nobody_hands_in_for_a_classmate_by_what_the_notebook_says(tmp_path, peo
     assert f"guest_7_998_{MSB}: taken for s002's" in said, "a person has to look"
 
 
+def test_what_an_update_kept_is_no_attempt(tmp_path):
+    """In a zip both may have the same time: it counts in steps of two seconds."""
+    both = {f".coursekit/before/notebooks/{DH}": notebook("old"), f"notebooks/{DH}": notebook("new")}
+    said = collect.collect(tree(tmp_path / "in", {"ann.zip": zipped(both)}), tmp_path / "out")
+    assert collected(tmp_path / "out") == {f"ann/{DH}": notebook("new")} and "older" not in said
+
+
 def test_names_of_two_platforms_in_one_folder_can_be_compared(tmp_path):
     files = {
         f"ann/ann+hw+2026-01-01 10:00:00 UTC/{DH}": notebook("1"),

@@ -137,6 +137,19 @@ def test_what_cannot_be_graded_is_refused_with_what_to_do(tmp_path, monkeypatch)
         grade_small(tmp_path / "in", tmp_path / "in", box=False)
 
 
+def test_notebooks_that_lie_deeper_are_told(tmp_path, solved):
+    """The folders that a class works in, on a hub: students/<id>/notebooks/<notebook>."""
+    (tmp_path / "in" / "bob").mkdir(parents=True)
+    hand_in(tmp_path / "in" / "ann", "notebooks", solved)
+    with pytest.raises(ValueError, match=r"in/ann/notebooks/01_arm.ipynb.*`coursekit collect "):
+        grade_small(tmp_path / "in", tmp_path / "out", box=False)
+    hand_in(tmp_path / "in", "bob", solved)
+    handed_in = Submissions(tmp_path / "in", tmp_path, {"nb01": NAME}, tmp_path / "out")
+    assert handed_in.note("ann", "nb01").endswith("(found: notebooks/01_arm.ipynb)")
+    with pytest.raises(ValueError, match="is no folder of submissions: `coursekit collect "):
+        grade_small(tmp_path / "in" / "bob" / NAME, tmp_path / "out", box=False)
+
+
 @needs_box
 def test_a_hard_link_to_a_classmates_file_earns_nothing(tmp_path, solved):
     for student in ("ann", "bob", "cem"):

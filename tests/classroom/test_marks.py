@@ -6,6 +6,7 @@ import csv
 import json
 import os
 import shutil
+from dataclasses import replace
 from datetime import datetime
 
 import pytest
@@ -159,6 +160,18 @@ def test_gradebooks_are_what_canvas_and_moodle_import(tmp_path):
             ["Identifier", "Full name", "ID number", "Email address", "01_arm"],
             ["Participant 123", "Lee, Ann", "ann", "ann@uni.edu", "9"],
         ]
+
+
+def test_a_notebook_that_nobody_handed_in_yet_is_no_column_of_zeros(tmp_path):
+    """The first week's grades would fill all weeks to come."""
+    one = standing(record())
+    later = replace(standing(record((0, 0, 0, 0))).notebooks["nb01"], name="02_later.ipynb", there=False)
+    one = replace(one, notebooks={**one.notebooks, "nb02": later})
+    for write in (gradebooks.write_canvas, gradebooks.write_moodle):
+        write(tmp_path / "book.csv", [one, one], {}, {})
+        with open(tmp_path / "book.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+        assert rows[0][-1] == "01_arm" and rows[-1][-1] == rows[-2][-1] == "9"
 
 
 def test_the_table_has_a_column_for_each_exercise(tmp_path):

@@ -482,6 +482,23 @@ def test_the_grader_knows_whose_arm_it_is(in_class, folder, tmp_path):
     assert s2["notes"] == ["the notebook was handed out to s1"]
 
 
+def test_who_takes_the_name_out_of_a_notebook_is_named(in_class, folder, tmp_path):
+    """Then nobody's arm is asked about, the same for all who do so."""
+    work = document.read(in_class / "s1" / "notebooks" / f"{STEM}.ipynb")
+    del work["metadata"]["coursekit"]["student"]
+    (tmp_path / "in" / "s1").mkdir(parents=True)
+    document.write(tmp_path / "in" / "s1" / f"{STEM}.ipynb", work)
+    run = ["grade", "--course", str(folder), "--no-box", "--jobs", "1", str(tmp_path / "in")]
+    roster = ["--roster", str(tmp_path / "roster.csv")]
+    assert main([*run, str(tmp_path / "grades"), *roster]) == main([*run, str(tmp_path / "others")]) == 0
+    notes = {one["student"]: one["notes"] for one in records(tmp_path / "grades")}
+    assert notes["s1"][0].startswith("the notebook does not say whom it was handed out to")
+    assert "nothing handed in" in notes["s2"]
+    assert [one["notes"] for one in records(tmp_path / "others")] == [[]], (
+        "a class without a roster has one arm"
+    )
+
+
 def test_who_reads_the_sheet_in_a_function_is_right_in_the_grades_too(in_class, folder, tmp_path):
     """`check` calls it right, so the box has the sheet, too: it shows what is asked, and no answer."""
     work = document.read(in_class / "s1" / "notebooks" / f"{STEM}.ipynb")

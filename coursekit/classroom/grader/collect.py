@@ -31,6 +31,7 @@ from .report import harmless
 
 ARCHIVES = (".zip", ".tar", ".gz", ".7z", ".rar")
 PART = ".part"  # how the folder is called until it is whole
+OTHERS = ("__MACOSX", ".ipynb_checkpoints", ".git", ".venv", ".coursekit")  # folders that programs keep
 COLUMNS = ("student", "notebook", "submitted", "late", "canvas", "moodle", "from")
 DEEPEST = 4  # zips in zips
 LONGEST = 255  # letters of a file's name; to read longer ones takes hours
@@ -302,12 +303,10 @@ def _is_wanted(name: str) -> bool:
 
 
 def _is_nobodys(parts: tuple[str, ...]) -> bool:
-    """What JupyterLab and macOS leave beside people's work."""
+    """What JupyterLab, macOS and an update of the course leave beside people's work."""
     hidden = parts[-1].startswith("._") or parts[-1] in (".DS_Store", "Thumbs.db", "desktop.ini", TABLE)
     ours = any(part.startswith(".") and part.endswith(PART) for part in parts)
-    return (
-        hidden or ours or any(part in ("__MACOSX", ".ipynb_checkpoints", ".git", ".venv") for part in parts)
-    )
+    return hidden or ours or any(part in OTHERS for part in parts)
 
 
 def read_table(folder: Path) -> list[dict[str, str]]:

@@ -78,7 +78,9 @@ def grade_class(
     """
     course, submissions, out = course or the_course(), Path(submissions), Path(out)
     if not submissions.is_dir():
-        raise ValueError(f"{submissions} is no folder of submissions")
+        raise ValueError(
+            f"{submissions} is no folder of submissions: `coursekit collect DOWNLOAD NEW` makes one"
+        )
     if out.resolve() == submissions.resolve():
         raise ValueError(f"grades cannot go into {out}, where the submissions are: name another folder")
     if jobs < 1 or (seed is not None and seed < 0):
@@ -102,7 +104,7 @@ def grade_class(
     if seed is None:
         seed = None if regrade is True else seed_of(path)
         seed = secrets.randbits(48) if seed is None else seed
-    make = Jobs(course, units, seed=seed, box=box, limits=limits)
+    make = Jobs(course, units, seed=seed, box=box, limits=limits, roster=bool(people))
     run = {"seed": seed, "box": box, "limits": asdict(limits), **course_digests(course, units)}
     run["points"] = {e.name: e.points for unit in units for e in course.exercises(unit)}
     with contextlib.ExitStack() as stack:
@@ -195,9 +197,11 @@ def course_digests(course: Course, units: list[str]) -> dict[str, str]:
 class Jobs:
     """Jobs are plain data: all a worker needs beside an installed coursekit, on this machine or another."""
 
-    def __init__(self, course: Course, units: list[str], *, seed: int, box: bool, limits: Limits) -> None:
+    def __init__(
+        self, course: Course, units: list[str], *, seed: int, box: bool, limits: Limits, roster: bool = False
+    ) -> None:
         place = None if course == the_course() else course.place
-        self._common = {"course": place, "seed": seed, "box": box, "limits": asdict(limits)}
+        self._common = {"course": place, "seed": seed, "box": box, "limits": asdict(limits), "roster": roster}
         self._course, self._units = course, units
         self._libraries = {unit: worker.library(course, unit, seed) for unit in units}
 

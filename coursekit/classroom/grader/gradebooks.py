@@ -1,6 +1,7 @@
 """The grades as Canvas and Moodle import them: one column for each notebook.
 
-No mark stands at the beginning of these files, unlike in grades.csv: programs read them, not Excel.
+No mark stands at the beginning of these files, unlike in grades.csv: programs read them, not Excel. What
+nobody handed in has no column: after the first week all weeks to come would count 0 there.
 """
 
 from __future__ import annotations
@@ -23,7 +24,13 @@ def write_canvas(path: Path, class_: list[Standing], people: dict[str, Student],
     columns = ["Student", "ID", "SIS Login ID", "Section", *_notebooks(class_)]
     possible = ["    Points Possible", "", "", "", *_possible(class_)]
     rows = [
-        [_name(one, people), ids.get(one.student, ""), one.student, _section(one, people), *_points(one)]
+        [
+            _name(one, people),
+            ids.get(one.student, ""),
+            one.student,
+            _section(one, people),
+            *_points(one, _units(class_)),
+        ]
         for one in class_
     ]
     _write(path, [columns, possible, *rows])
@@ -41,23 +48,29 @@ def write_moodle(path: Path, class_: list[Standing], people: dict[str, Student],
             _name(one, people),
             one.student,
             people[one.student].email if one.student in people else "",
-            *_points(one),
+            *_points(one, _units(class_)),
         ]
         for one in class_
     ]
     _write(path, [columns, *rows])
 
 
+def _units(class_: list[Standing]) -> list[str]:
+    found = {unit for one in class_ for unit, nb in one.notebooks.items() if nb.there or nb.points != 0}
+    return [unit for unit in class_[0].notebooks if unit in found] if class_ else []
+
+
 def _notebooks(class_: list[Standing]) -> list[str]:
-    return [nb.name.removesuffix(".ipynb") for nb in class_[0].notebooks.values()] if class_ else []
+    return [class_[0].notebooks[unit].name.removesuffix(".ipynb") for unit in _units(class_)]
 
 
 def _possible(class_: list[Standing]) -> list[float]:
-    return [whole(nb.of) for nb in class_[0].notebooks.values()] if class_ else []
+    return [whole(class_[0].notebooks[unit].of) for unit in _units(class_)]
 
 
-def _points(one: Standing) -> list[float | str]:
-    return ["" if nb.points is None else whole(nb.points) for nb in one.notebooks.values()]
+def _points(one: Standing, units: list[str]) -> list[float | str]:
+    found = [one.notebooks[unit].points for unit in units]
+    return ["" if points is None else whole(points) for points in found]
 
 
 def _name(one: Standing, people: dict[str, Student]) -> str:

@@ -53,6 +53,12 @@ class Submissions:
             self._numbers[student_name] = len(self._numbers)
             for unit in names:
                 self._notes[student_name, unit] = "nothing handed in"
+        deeper = [path for student in students for path in _deeper(student, set(names.values()))]
+        if deeper and all(self._notes.values()):
+            raise ValueError(
+                f"no student's folder in {folder} holds a notebook, but folders in them do ({deeper[0]}): "
+                f"`coursekit collect {folder} NEW` makes a folder of submissions of that"
+            )
         units = {name: unit for unit, name in names.items()}
         self._table = collect.read_table(folder)
         for row in self._table:
@@ -149,6 +155,7 @@ def _copy(student: Path, name: str, target: Path, expected: set[str]) -> str:
                 for path in student.iterdir()
                 if path.suffix.lower() in (".ipynb", *ARCHIVES) and path.name not in expected
             )
+            others += [str(path.relative_to(student)) for path in _deeper(student, {name})]
         found = f" under the name {name} (found: {', '.join(others[:5])})" if others else ""
         return "nothing handed in" + found
     except OSError:
@@ -157,6 +164,14 @@ def _copy(student: Path, name: str, target: Path, expected: set[str]) -> str:
         return "the notebook is larger than 20 MB"
     target.write_bytes(data)
     return ""
+
+
+def _deeper(student: Path, names: set[str]) -> list[Path]:
+    """Notebooks of the course in a folder of the student's folder: where a release has them, say."""
+    with contextlib.suppress(OSError):
+        folders = [path for path in student.iterdir() if path.is_dir() and path.name[:1] not in "._"]
+        return [path / name for path in sorted(folders) for name in sorted(names) if (path / name).exists()]
+    return []
 
 
 def _without_following(path: str, flags: int) -> int:

@@ -38,6 +38,11 @@ from .locked import locked_files, write_files
 from .reply import clean, for_students
 from .student import Student
 
+NAMELESS = (
+    "the notebook does not say whom it was handed out to: exercises about one's own arm were asked about "
+    "the practice arm"
+)
+
 
 def main() -> None:
     """Grade every job that comes, until there are no more."""
@@ -122,6 +127,8 @@ def grade(job: dict, libraries: _Libraries) -> dict:
     if job.get("search"):
         return _searched(job, course, limits, sources, libraries)
     arm, notes = handed_out(data, job["student"], course)
+    if job.get("roster") and arm == own.NOBODY and any(exercise.own for exercise in exercises):
+        notes.append(NAMELESS)
     before = time.process_time()
     library = libraries.of({**job["library"], **_drawn(exercises, arm)})
     program, set_up = bubblewrap() if job["box"] else None, follow_on.set_up(course, job["unit"])
