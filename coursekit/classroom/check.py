@@ -20,7 +20,7 @@ from .course import Course, course_here
 from .exercise import Exercise, thaw
 from .panel import offer
 from .question import remember
-from .source import own
+from .source import not_run, own
 from .told import LEVELS, told
 from .verdict import Example, Verdict, verdict
 
@@ -81,6 +81,10 @@ def check(name: str, function: Callable, show: str | None = None) -> None:
             text += f"; it was {before}"
     if not found.right:
         _mended[name] = found.mended
+    if why := not_run(name):
+        print(
+            f"✗ {name}: your newest cell with it has a syntax error and did not run: {why}. The one before:"
+        )
     print(f"{MARKS.get(found.kind, '✗')} {name}: {text}")
     if os.environ.get("CI") and not found.right:
         raise CheckFailed(f"{name}: {text}")

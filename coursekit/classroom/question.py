@@ -62,26 +62,29 @@ class Asked:
     def __repr__(self) -> str:
         return self.text
 
-    def answer(self, value: Any) -> None:
+    def answer(self, value: Any, *more: Any) -> None:
         """Print the question and whether `value` is its answer; `...` means: not answered yet.
+
+        A list may come without its brackets. An empty line parts it from the next question.
 
         >>> from coursekit.classroom import ask
         >>> ask("read_t_ab").answer(...)                                                # doctest: +SKIP
         """
         print(self.text)
+        print(self._verdict([value, *more] if more else value), end="\n\n")
+
+    def _verdict(self, value: Any) -> str:
         if value is ...:
-            print("… put your answer in place of the dots and run the cell again")
-            return
-        right = self.question.answer(**self.numbers)
+            return "… put your answer in place of the dots and run the cell again"
+        right, tolerance = self.question.answer(**self.numbers), self.question.tolerance
         if text := _unlike(value, right):
-            print(f"✗ {text}")
-        elif _agree(value, right, self.question.tolerance):
+            return f"✗ {text}"
+        if _agree(value, right, tolerance):
             remember(self.question.name)
-            print("✓ right")
-        else:
-            slips = self.question.slips.items()
-            found = (s for s, wrong in slips if _agree(value, wrong(**self.numbers), self.question.tolerance))
-            print(f"✗ not yet. {next(found, '')}".rstrip())
+            return "✓ right"
+        slips = self.question.slips.items()
+        found = (slip for slip, wrong in slips if _agree(value, wrong(**self.numbers), tolerance))
+        return f"✗ not yet. {next(found, '') or _slip(value, right, self.text, tolerance)}".rstrip()
 
 
 def ask(name: str, draw: int = 1) -> Asked:
@@ -134,6 +137,10 @@ def goals(notebook: str) -> None:
     ticks = {goal: all(name in done for name in names) for goal, names in wanted.items()}
     line = " · ".join(f"{'✓' if ticked else '○'} {goal}" for goal, ticked in ticks.items())
     print(f"{sum(ticks.values())} of {len(ticks)} goals: {line}")
+    for goal, names in wanted.items():
+        lacking = [name for name in names if name not in done]
+        if 0 < len(lacking) < len(names):
+            print(f"  {goal}: still to do {', '.join(lacking)}")
 
 
 def progress(folder: Path) -> str:
@@ -205,7 +212,8 @@ def _module(unit: str) -> Any:
 def _unlike(value: Any, right: Any) -> str:
     """'' or why this is no answer at all: another kind of thing, another length."""
     if isinstance(right, str):
-        return "" if isinstance(value, str) else 'the answer is a letter in quotes, like "a"'
+        fine = isinstance(value, str) and len(_letter(value)) == 1
+        return "" if fine else 'the answer is a letter in quotes, like "a"'
     if isinstance(right, numbers.Real):
         fine = isinstance(value, numbers.Real) or getattr(value, "shape", None) == ()
         return "" if fine else "the answer is one number"
@@ -214,11 +222,43 @@ def _unlike(value: Any, right: Any) -> str:
     except (TypeError, ValueError):
         return "the answer is a list of numbers"
     wanted = np.shape(right)
-    return "" if shape == wanted else f"the answer has shape {wanted}; yours has {shape}"
+    if shape == wanted:
+        return ""
+    if len(wanted) == 1 and len(shape) < 2:
+        yours = f"yours has {shape[0]}" if shape else "yours is one number"
+        return f"the answer is a list of {wanted[0]} numbers; {yours}"
+    return f"the answer has shape {wanted}; yours has {shape}"
+
+
+def _letter(value: Any) -> str:
+    """The letter of a choice, also where it was copied with its brackets."""
+    return str(value).strip(" ().\"'").lower()
+
+
+def _slip(value: Any, right: Any, text: str, tolerance: float) -> str:
+    """What is known of a number that no slip of the question explains: '' or a sentence."""
+    if isinstance(right, str):
+        return ""
+    right, value = np.asarray(right, dtype=float), np.asarray(value, dtype=float)
+
+    def near(other: Any) -> bool:
+        return bool(np.all(np.abs(value - other) <= np.maximum(0.005 * np.abs(other), 1e-9)))
+
+    if _agree(value, -right, tolerance):
+        return "It is right but for the sign" + ("s of all numbers." if right.ndim else ".")
+    if "degrees" in text and near(np.radians(right)):
+        return "That is in radians; degrees are asked for."
+    if " rad" in text and near(np.degrees(right)):
+        return "That is in degrees; radians are asked for."
+    if near(1000 * right) or near(right / 1000):
+        return "It is off by a factor of 1000: look at the units."
+    if value.all() and any(np.all(np.round(right, digits) == value) for digits in range(7)):
+        return "It is rounded too far: more digits are asked for."
+    return ""
 
 
 def _agree(value: Any, right: Any, tolerance: float) -> bool:
     if isinstance(right, str) or isinstance(value, str):
-        return str(value).strip().lower() == str(right).strip().lower()
+        return _letter(value) == _letter(right)
     a, b = np.asarray(value, dtype=float), np.asarray(right, dtype=float)
     return a.shape == b.shape and bool(np.all(np.abs(a - b) <= tolerance))

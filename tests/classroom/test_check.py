@@ -58,6 +58,20 @@ def unwritten(*args):
     raise NotImplementedError
 
 
+def test_a_cell_that_did_not_run_is_told_before_the_function_that_is_still_there(monkeypatch, capsys):
+    stub = "def fk_dh(*args):\n    raise NotImplementedError\n"
+    given = ["", "import numpy as np", stub, "def fk_dh(rows)\n    return 3\n", "check()"]
+    monkeypatch.setattr("coursekit.classroom.source.cells", lambda: given)
+    monkeypatch.delenv("CI", raising=False)
+    check("fk_dh", unwritten)
+    first, second, *_ = capsys.readouterr().out.splitlines()
+    assert "did not run: line 1: expected ':'" in first
+    assert second.startswith("… fk_dh")
+    given[3] = stub  # it runs now
+    check("fk_dh", unwritten)
+    assert capsys.readouterr().out.startswith("… fk_dh")
+
+
 # ---- 1: it cannot be judged
 
 

@@ -67,11 +67,54 @@ def test_a_letter_in_any_case(capsys):
     assert "a letter in quotes" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("answer", ["(b)", "b)", " B. "])
+def test_a_letter_that_was_copied_with_its_brackets(answer, capsys):
+    ask("side").answer(answer)
+    assert "✓ right" in capsys.readouterr().out
+
+
+def test_a_word_is_no_letter(capsys):
+    ask("side").answer("right")
+    assert "✗ the answer is a letter in quotes" in capsys.readouterr().out
+
+
+def _asked(right, text="?", tolerance=1e-3):
+    return question.Asked(question.Question("one", lambda rng: {}, text, lambda: right, {}, tolerance), {})
+
+
+@pytest.mark.parametrize(
+    ("right", "text", "answer", "words"),
+    [
+        ([1.5, 2, 0], "", (1.5, 2, 0), "✓ right"),
+        ([1.5, 2, 0], "", ([1.5, 2],), "✗ the answer is a list of 3 numbers; yours has 2"),
+        ([1.5, 2, 0], "", (7,), "✗ the answer is a list of 3 numbers; yours is one number"),
+        ([1.5, 2, 0], "", ([-1.5, -2, 0],), "✗ not yet. It is right but for the signs of all numbers."),
+        (-75, "in degrees", (75,), "✗ not yet. It is right but for the sign."),
+        (-75, "in degrees", (-1.309,), "✗ not yet. That is in radians; degrees are asked for."),
+        (0.119429, "in rad", (6.84,), "✗ not yet. That is in degrees; radians are asked for."),
+        (100, "in rad/s", (0.1,), "✗ not yet. It is off by a factor of 1000: look at the units."),
+        (0.119429, "in rad", (0.119,), "✗ not yet. It is rounded too far: more digits are asked for."),
+        (0.119429, "in rad", (0,), "✗ not yet.\n"),
+        (4, "", (5,), "✗ not yet.\n"),
+        (4.2, "", (4.1,), "✗ not yet.\n"),
+    ],
+)
+def test_what_is_known_of_a_number_is_told(right, text, answer, words, capsys):
+    _asked(right, text, 1e-5).answer(*answer)
+    assert words in capsys.readouterr().out
+
+
+def test_a_goal_that_is_begun_says_what_is_still_to_do(capsys):
+    question.remember("fk_dh")
+    goals("01")
+    assert capsys.readouterr().out.splitlines()[1:] == ["  Arms: still to do lever"]
+
+
 def test_goals_are_ticked_by_answers_and_remembered_in_the_folder(capsys, tmp_path, monkeypatch):
     ask("lever").answer(-ask("lever").numbers["h"])
     capsys.readouterr()
     goals("01")
-    assert capsys.readouterr().out == "1 of 2 goals: ✓ Levers · ○ Arms\n"
+    assert capsys.readouterr().out.startswith("1 of 2 goals: ✓ Levers · ○ Arms\n")
     monkeypatch.setattr(question, "_done", set())  # another day
     question.remember("fk_dh")
     goals("01")

@@ -49,6 +49,7 @@ def _other_units(row):
     }
 
 
+OF_THE_FIGURE = "That is the arm of figure 3; this one has other lengths: they stand in the question."
 WRONG = ("its origin is right, its rotation is not", "only the height of its origin is off")
 
 QUESTIONS = [
@@ -96,6 +97,7 @@ QUESTIONS = [
             "z_1 and z_2 both point into the page: there is no twist.": (
                 lambda L1, L2, L3, L4: [L2, -90, 0, -90]
             ),
+            OF_THE_FIGURE: lambda L1, L2, L3, L4: [448, 0, 0, -90],
             **_other_units(lambda L1, L2, L3, L4: [L2, 0, 0, -90]),
         },
     ),
@@ -113,6 +115,7 @@ QUESTIONS = [
                 lambda L1, L2, L3, L4: [0, -90, L4, 0]
             ),
             "Axes 4 and 5 are perpendicular: there is a twist.": lambda L1, L2, L3, L4: [0, 0, L4, 0],
+            OF_THE_FIGURE: lambda L1, L2, L3, L4: [0, 90, 451, 0],
             **_other_units(lambda L1, L2, L3, L4: [0, 90, L4, 0]),
         },
     ),
@@ -179,11 +182,11 @@ QUESTIONS = [
         },
         text="A check goes frame by frame: frames 1 to {before} are right. In frame {i}, seen from\n"
         "frame {before}, {what}. One number of row {i} is wrong, a is not zero. Which one?\n"
-        '"a" a   "b" alpha   "c" d   "d" theta',
-        answer=lambda what, **_: "c" if "height" in what else "b",
+        '"a" a   "b" alpha   "c" theta   "d" d',
+        answer=lambda what, **_: "d" if "height" in what else "b",
         slips={
             "theta swings a around: the origin would move as well.": (
-                lambda what, **_: "x" if "height" in what else "d"
+                lambda what, **_: "x" if "height" in what else "c"
             ),
             "Height is measured along the old z axis, and that is d.": (
                 lambda what, **_: "a" if "height" in what else "x"

@@ -43,6 +43,7 @@ TEXTS = {
     "negative_root": "a root of a number that may be negative",
     "flipped": "the order of the columns",
     "missing": "`{}` is missing there",
+    "stray": "`{}` does not belong there",
     "line": "one line too many",
     "lines": "the order of this line and the next one",
     "return": "`return` stands inside the loop",
@@ -57,7 +58,7 @@ EVERY = {
     "arguments": "the order of the arguments in every `{}`",
     "function": "every `{}`: another function is needed",
     "operator": "every `{}`: another operator is needed",
-    "products": "every `{}`: another operator is needed",
+    "products": "every `{}` between two arrays: another operator is needed",
     "order": "the order of the factors at every `{}`",
     "index": "every `{}`: another index or slice is needed",
     "brackets": "the brackets in every fraction: what is divided by what",
@@ -67,7 +68,8 @@ EVERY = {
     "missing": "`{}` is missing at several places",
 }
 # kind -> what does the same in other words: without the line it does not matter which one stands behind it
-LESSER = {"line": ("lines", "modulo"), "call": ("number",), "modulo": ("number",)}
+LESSER = {"line": ("lines", "modulo"), "call": ("number", "degrees"), "modulo": ("number",)}
+LESSER["every_call"] = LESSER["call"]
 WHOLE = {"+": "sum", "-": "difference", "*": "product", "@": "product", "/": "fraction", "**": "power"}
 
 

@@ -227,6 +227,7 @@ def _name(node: ast.Name, variables: list[str]) -> Made:
     if node.id not in variables:
         return whole(node, variables)
     others = [Variant("name", variable(v), what=node.id) for v in variables if v != node.id]
+    others.append(Variant("stray", _give(0), what=node.id, rank=2))  # a table's entry that is 0
     return (lambda: [node]), lambda p, _: p[0], others
 
 
