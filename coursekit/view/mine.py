@@ -156,7 +156,7 @@ class Mine:
                 value = function(*given)
         except NotImplementedError:
             raise Trouble(f"not written yet. Write it, and you see {wanted.sees}") from None
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             raise Trouble(_where(error, function)) from None
         finally:
             self._seconds += time.monotonic() - begun
@@ -230,7 +230,7 @@ def _quietly():
         yield
 
 
-def _where(error: Exception, function: Any) -> str:
+def _where(error: BaseException, function: Any) -> str:
     """What was raised, and in which line of which function of the student's file or notebook."""
     said = f"{type(error).__name__}: {str(error).partition(chr(10))[0]}"
     home = getattr(getattr(function, "__code__", None), "co_filename", None)

@@ -36,19 +36,18 @@ def apart(T: np.ndarray, right: np.ndarray) -> tuple[Any, Any]:
 def gap(distance: float, angle: float = 0.0) -> str:
     """A gap in words: "12.3 mm and 4.5 deg", "below 1e-9".
 
-    >>> gap(0.0123, 0), gap(0, 1e-12), gap(0, np.nan)
-    ('12.3 mm', 'below 1e-9', 'no pose: the columns of R or the last row are not those of one')
+    >>> gap(0.0123, 0), gap(0, 1e-12), gap(0.0123, np.nan)
+    ('12.3 mm', 'below 1e-9', '12.3 mm and columns of R or a last row that no pose has')
     """
-    if np.isnan(angle):
-        return "no pose: the columns of R or the last row are not those of one"
-    parts = [(1000 * distance, "mm")] if distance > ZERO else []
-    parts += [(float(np.degrees(angle)), "deg")] if angle > ZERO else []
-    return " and ".join(f"{size(x)} {unit}" for x, unit in parts) or "below 1e-9"
+    parts = [f"{size(1000 * distance)} mm"] if distance > ZERO else []
+    parts += [f"{size(float(np.degrees(angle)))} deg"] if angle > ZERO else []
+    parts += ["columns of R or a last row that no pose has"] if np.isnan(angle) else []
+    return " and ".join(parts) or "below 1e-9"
 
 
 def size(x: float) -> str:
-    """A gap's number: one decimal, or its power of ten where that would be 0.0."""
-    return text.number(x, 1) if abs(x) >= 0.05 else text.scientific(x)
+    """A gap's number: one decimal, or its power of ten where that would be 0.0 or a row of digits."""
+    return text.number(x, 1) if 0.05 <= abs(x) < 1e7 else text.scientific(x)
 
 
 def chain(mine: np.ndarray, right: np.ndarray) -> tuple[int | None, str]:
@@ -61,15 +60,11 @@ def chain(mine: np.ndarray, right: np.ndarray) -> tuple[int | None, str]:
     if first == n - 1:
         return (
             first,
-            f"all frames before the tool are right; the tool is off by {_off(distance[-1], angle[-1])}",
+            f"all frames before the tool are right; the tool is off by {gap(distance[-1], angle[-1])}",
         )
-    told = f"frame {first + 1} is the first that is off, by {_off(distance[first], angle[first])}"
-    more = f"; the tool is off by {_off(distance[-1], angle[-1])}" if off[-1] == n - 1 else ""
+    told = f"frame {first + 1} is the first that is off, by {gap(distance[first], angle[first])}"
+    more = f"; the tool is off by {gap(distance[-1], angle[-1])}" if off[-1] == n - 1 else ""
     return first, told + more
-
-
-def _off(distance, angle):
-    return f"{gap(distance, angle)} and {gap(distance)}" if np.isnan(angle) else gap(distance, angle)
 
 
 def like_the_kr6(robot: Robot) -> tuple[np.ndarray, float]:

@@ -38,6 +38,34 @@ def test_what_is_no_number_or_too_large_is_told(explorer):
     assert explorer.kernel("panel.values['theta'][0]") == pytest.approx(KR6.q_max[0], abs=1e-14)
 
 
+PASTE = """([box, text]) => {
+  const clipboardData = new DataTransfer();
+  clipboardData.setData("text", text);
+  return !box.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
+}"""
+
+
+def test_a_vector_pasted_fills_the_boxes_from_there_on(explorer):
+    boxes, hints = explorer.page.locator(".ck-number"), explorer.page.locator(".ck-hint")
+    explorer.page.evaluate(
+        PASTE, [boxes.first.element_handle(), "array([ 0.1, -0.5,  0.3, 0.2, -0.1, 0.25]) rad"]
+    )
+    explorer.settle()
+    pasted = explorer.kernel("panel.values['theta'].tolist()")
+    np.testing.assert_allclose(pasted, [0.1, -0.5, 0.3, 0.2, -0.1, 0.25], rtol=1e-12)
+    assert hints.all_inner_texts() == [""] * 6
+    boxes.nth(3).fill("(10, 400, -30)")
+    boxes.nth(3).press("Enter")
+    explorer.settle()
+    typed = np.degrees(explorer.kernel("panel.values['theta'][3:].tolist()"))
+    np.testing.assert_allclose(typed, [10, 120, -30], rtol=1e-12)
+    assert hints.nth(3).inner_text() == "3 numbers, in the units shown here"
+    assert hints.nth(4).inner_text() == "400 is beyond the limit, 120 deg"
+    boxes.nth(5).fill("[1, 2]")  # more than there are boxes
+    boxes.nth(5).press("Enter")
+    assert "is no number here" in hints.nth(5).inner_text()
+
+
 def test_escape_takes_a_typed_number_back(explorer):
     box = explorer.page.locator(".ck-number").first
     box.focus()

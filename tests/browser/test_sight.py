@@ -111,7 +111,8 @@ HIDDEN = """async () => {
     const pane = document.querySelector(".ck-pane").getBoundingClientRect();
     const labels = () => [...document.querySelectorAll(".ck-label:not(.tick)")]
         .map((one) => [one, one.getBoundingClientRect()]).filter(([, box]) => box.width);
-    const cut = labels().filter(([, box]) => box.left < pane.left || box.right > pane.right);
+    const cut = labels().filter(([, box]) => box.left < pane.left || box.right > pane.right
+        || box.top < pane.top || box.bottom > pane.bottom);
     const buttons = document.querySelector(".ck-views"), [, there] = labels()[0];
     buttons.style.left = `${there.left - pane.left}px`;
     buttons.style.top = `${there.top - pane.top}px`;

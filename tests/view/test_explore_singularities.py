@@ -109,6 +109,15 @@ def test_the_line_meets_every_axis_and_can_be_hidden(panel):
     assert not panel.scene.parts["/ck/meets_all"] and not panel.scene.parts["/ck/lost/force"]
 
 
+def test_the_joint_axes_are_numbered_as_long_as_they_are_shown(panel):
+    def numbers():
+        return [label["text"] for label in panel.scene.labels if label["path"].endswith("/line/number")]
+
+    assert numbers() == ["1", "2", "3", "4", "5", "6"]
+    panel.set(axes=False)
+    assert numbers() == []
+
+
 def test_a_click_on_the_map_sets_two_joints(panel):
     before = panel.values["theta"]
     panel.below[0].on_click(-60.0, 30.0)

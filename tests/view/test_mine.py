@@ -1,6 +1,7 @@
 """What the student wrote in the explorers, without a browser: right, wrong, unfinished, slow, impolite."""
 
 import json
+import sys
 import time
 from functools import cache
 from pathlib import Path
@@ -190,6 +191,7 @@ def prints(*arguments):
 MISFITS = {
     "raises": (raises, "line 3 of raises raises IndexError: list index out of range"),
     "does not take the arguments": (lambda: 0, "TypeError"),
+    "leaves Python": (lambda *_: sys.exit(3), "line 1 of <lambda> raises SystemExit: 3"),
     "returns nothing": (prints, "it returns None: is there a `return` at its end?"),
     "a word": (lambda *_: "T", "it returns no array of real numbers (str)"),
     "complex": (lambda *_: np.eye(4) * 1j, "it returns no array of real numbers (ndarray)"),
@@ -197,9 +199,15 @@ MISFITS = {
     "shape": (lambda *_: np.eye(3), "it returns shape (3, 3), expected (4, 4)"),
     "NaN": (lambda *_: np.full((4, 4), np.nan), "it returns numbers that are not finite"),
     "infinity": (lambda *_: np.eye(4) / 0, "it returns numbers that are not finite"),
-    "zeros": (lambda *_: np.zeros((4, 4)), "frame 1 is the first that is off, by no pose"),
+    "zeros": (
+        lambda *_: np.zeros((4, 4)),
+        "frame 1 is the first that is off, by 400.0 mm and columns of R or a last row that no pose has",
+    ),
     "millimetres": (lambda S, M, theta: M * [1, 1, 1, 1000], "; too far away to be drawn (metres?)"),
-    "huge": (lambda *_: np.eye(4) * 1e300, "frame 1 is the first that is off, by no pose"),
+    "huge": (
+        lambda *_: np.eye(4) * 1e300,
+        "frame 1 is the first that is off, by 400.0 mm and columns of R or a",
+    ),
 }
 
 
@@ -326,6 +334,22 @@ def test_axes_get_a_tick_where_they_are_right(opened):
     assert "off: joint 5. Joint 5: the axes are 999.6 mm apart; v is off by 999.6 mm per rad" in said(
         panel, "S"
     )
+
+
+def test_attitudes_that_agree_lie_upon_each_other_and_have_one_name(opened):
+    names = ["zyx", "quaternion", "angle_axis", "slerp"]
+    panel = opened("explore_path", {name: right(name) for name in names})
+
+    def shown():
+        return [label["text"] for label in panel.scene.labels if label["text"].startswith("yours")]
+
+    assert shown() == ["yours ✓"]
+    panel.set(branch="front elbow-up no-flip")
+    assert shown() == ["yours ✓"]
+    panel = opened(
+        "explore_path", {**{name: right(name) for name in names}, "zyx": lambda R: [0.1, 0.2, 0.3]}
+    )
+    assert sorted(shown()) == ["yours ✓", "yours: zyx"]
 
 
 def test_an_arm_without_the_table_or_with_slides_is_told(opened):

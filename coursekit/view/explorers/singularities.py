@@ -114,7 +114,9 @@ class _Singularities(yours.Singularities, Explorer):
         for k, (q, w) in enumerate(zip(places, axes.directions_of(robot.S), strict=True)):
             ends = axes.foot(origins[k], q, w) + np.outer([-0.6, 0.6], w) * scene.size
             wire = np.linspace(*ends, 33)
-            self.lines.append(scene.curve(self.arm.link(k + 1) + "/line", wire, "axis", 0.002 * scene.size))
+            path = self.arm.link(k + 1) + "/line"
+            self.lines.append(scene.curve(path, wire, "axis", 0.002 * scene.size))
+            scene.point(f"{path}/number", ends[1], str(k + 1), "axis", 0.004 * scene.size)
         pointing.axes(scene, self.arm, FACTOR_AT.__getitem__ if self.split else "J{}".format)
         if self.split:  # the wrist's centre, for elbow and shoulder
             wrist = scene.point(

@@ -5,6 +5,9 @@ const splitPath = (path) => path.split("/").filter((name) => name);
 // Coordinates of the world (z up, metres) in the frame of meshcat's camera (y up).
 const yUp = ([x, y, z]) => [x, z, -y];
 
+// What is seen of a name, or nearly, is all of it: where its middle stands, of which `half` needs room before 0 and before `end`.
+const kept = (at, half, end) => (at < -Math.max(18, half) || at > end + Math.max(18, half) ? at : Math.max(half, Math.min(end - half, at)));
+
 // HTML spans, placed after every frame: crisp at any size, readable in both themes, always facing the reader.
 function makeLabels(THREE, viewer, pane, renderer) {
   const layer = element("div", { class: "ck-labels", "aria-hidden": "true" }); // the text line says the same in words
@@ -14,10 +17,8 @@ function makeLabels(THREE, viewer, pane, renderer) {
   const visible = (object) => !object || (object.visible && visible(object.parent));
   return {
     set(list) {
-      labels = list.map(({ path, pos, text, cls }) => {
-        const span = element("span", { class: `ck-label ${cls || ""}` }, text);
-        return { span, pos, path: splitPath(path), isWord: !["x", "y", "z", "tick"].includes(cls), wide: 7.2 * text.length + 6 };
-      });
+      labels = list.map(({ path, pos, text, cls }) => ({ span: element("span", { class: `ck-label ${cls || ""}` }, text), pos,
+        path: splitPath(path), isWord: !["x", "y", "z", "tick"].includes(cls), wide: 7.2 * text.length + 8 }));
       labels.sort((a, b) => b.isWord - a.isWord);
       layer.replaceChildren(...labels.map((label) => label.span));
     },
@@ -28,13 +29,12 @@ function makeLabels(THREE, viewer, pane, renderer) {
       for (const { span, pos, path, isWord, wide } of labels) {
         const object = viewer.scene_tree.find(path).object;
         point.set(...pos).applyMatrix4(object.matrixWorld).project(viewer.camera);
-        const across = ((point.x + 1) / 2) * width, inside = Math.max(wide / 2, Math.min(width - wide / 2, across));
-        const x = Math.abs(inside - across) < wide ? inside : across; // what is seen of a name is all of it
-        let y = ((1 - point.y) / 2) * height;
-        // words give way to each other, downwards; the letters of axes and the scale of the grid, by not being there
+        const x = kept(((point.x + 1) / 2) * width, wide / 2, width);
+        let y = kept(((1 - point.y) / 2) * height, 9, height);
+        // words give way to each other, downwards and from the ground up; the letters of axes and the scale of the grid, by not being there
         const isTaken = () => taken.some((other) => Math.abs(other.x - x) < (other.wide + wide) / 2 && Math.abs(other.y - y) < (other.high || 13));
-        let shown = point.z < 1 && visible(object);
-        while (shown && isWord && isTaken()) y += 13;
+        let shown = point.z < 1 && x > 0 && x < width && y > 0 && y < height && visible(object);
+        for (let step = 13; shown && isWord && isTaken(); y += step) if (y + step > height - 9) step = -13;
         shown = shown && !isTaken();
         span.style.display = shown ? "" : "none";
         if (!shown) continue;
@@ -109,9 +109,7 @@ function makeCamera(THREE, viewer, pane) {
     viewer.set_dirty();
   };
   return {
-    lens({ size, fov }) {
-      Object.assign(camera, { fov, near: 0.02 * size, far: 30 * size });
-    },
+    lens: ({ size, fov }) => Object.assign(camera, { fov, near: 0.02 * size, far: 30 * size }),
     show(where) {
       shown = where;
       place();

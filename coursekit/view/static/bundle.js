@@ -20,10 +20,7 @@ const bytesOf = (data) => (data instanceof Uint8Array ? data : new Uint8Array(da
 // Float64Array needs an offset that is a multiple of 8: copy.
 const floatsOf = (data) => new Float64Array(bytesOf(data).slice().buffer);
 
-async function gunzip(data) {
-  const stream = new Blob([bytesOf(data)]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).text();
-}
+const gunzip = async (data) => new Response(new Blob([bytesOf(data)]).stream().pipeThrough(new DecompressionStream("gzip"))).text();
 
 // Three ways to run the bundle; a content security policy may forbid any of them. Each hides `define` and gives the
 // bundle a `module` of its own, so that it can neither register with a loader of the host page nor become a global.

@@ -18,11 +18,7 @@ const leaveRoom = (row, model) => row.style.setProperty("--ck-letters", model.ge
 
 function slider(model, el) {
   let draw = () => {};
-  const build = () => {
-    el.replaceChildren();
-    draw = buildSlider(model, el);
-  };
-  keepDrawn(model, ["shape"], build); // another robot: other limits
+  keepDrawn(model, ["shape"], () => (draw = buildSlider(model, el))); // another robot: other limits
   for (const name of ["value", "bands"]) model.on(`change:${name}`, () => draw());
 }
 
@@ -45,7 +41,7 @@ function buildSlider(model, el) {
   const row = element("div", { class: "ck-slider" }, name, track, box, element("span", { class: "ck-unit" }, unit), hint);
   leaveRoom(row, model);
   pointsAt(row, model.get("word"));
-  el.append(row);
+  el.replaceChildren(row);
 
   // The limits of the joint, marked where they are: at the ends, or inside when the slider goes beyond them.
   const limits = model.get("limits");
@@ -116,18 +112,22 @@ function buildSlider(model, el) {
   });
   range.addEventListener("keyup", () => model.get("live") && send(model.get("value"), false));
   box.addEventListener("input", () => (box.ckEdited = true));
+  const fill = (text) => { // a vector: this box and those after it take its numbers, as if each were typed there
+    const vector = readVector(text), all = [...el.closest(".ck-panel").querySelectorAll(".ck-number")], boxes = all.slice(all.indexOf(box));
+    if (!vector || vector.length > boxes.length) return false;
+    vector.forEach((number, i) => Object.assign(boxes[i], { value: number, ckEdited: true }).dispatchEvent(new Event("change")));
+    if (/\d$/.test(vector[0]) && !hint.textContent) hint.textContent = `${vector.length} numbers, in the units shown here`;
+    return true;
+  };
+  box.addEventListener("paste", (event) => fill(event.clipboardData.getData("text")) && event.preventDefault());
   box.addEventListener("change", () => {
-    if (!box.ckEdited) return; // taken back by Escape
+    if (!box.ckEdited || fill(box.value)) return; // taken back by Escape, or told to all
     const { value, error } = readNumber(box.value, unit);
     box.ckEdited = false;
-    if (error) {
-      draw();
-      hint.textContent = error;
-      return;
-    }
-    send(value, false);
+    if (error) draw();
+    else send(value, false);
     const end = value < min ? min : max;
-    if (value < min || value > max) hint.textContent = `${trim(value, digits)} is beyond the ${limits.includes(end) ? "limit" : "end"}, ${trim(end, digits)} ${unit}`;
+    if (error || value < min || value > max) hint.textContent = error || `${trim(value, digits)} is beyond the ${limits.includes(end) ? "limit" : "end"}, ${trim(end, digits)} ${unit}`;
   });
   box.addEventListener("keydown", (event) => {
     const jump = { ArrowUp: 1, ArrowDown: -1, Escape: 0 }[event.key];

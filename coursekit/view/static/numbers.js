@@ -1,4 +1,4 @@
-// Numbers as people type them, and a sentence where it is none. Nothing is guessed: what can be read in two ways is refused.
+// Numbers as people type and paste them, and a sentence where it is none. Nothing is guessed: what can be read in two ways is refused.
 
 const PER_UNIT = { // unit shown -> unit typed -> factor
   deg: { deg: 1, "°": 1, rad: 180 / Math.PI },
@@ -16,7 +16,7 @@ const SHAPE = new RegExp(`^([-+]?)(?:(${A_NUMBER})\\*?)?(pi)?(?:/(${A_NUMBER}))?
 export function readNumber(typed, unit = "") {
   const example = { deg: "12.5, -90°, 0.3 rad or pi/2", mm: "12.5 or 0.4 m" }[unit] || "12.5";
   const refuse = { error: `“${typed.trim()}” is no number here: write ${example}` };
-  const plain = typed.toLowerCase().replace(/[\u2010-\u2015\u2212]/g, "-").replace(/π/g, "pi").replace(/\s+/g, "");
+  const plain = typed.toLowerCase().replace(/[\u2010-\u2015\u2212]/g, "-").replace(/π|np\.pi/g, "pi").replace(/[º˚]/g, "°").replace(/\s+/g, "");
   if (/[\d.]\s+[\d.]/.test(typed)) return refuse; // two numbers
   const commas = plain.split(",").length - 1;
   if (commas > 1 || (commas && plain.includes("."))) return refuse; // 1,234.5 is two different numbers in two countries
@@ -29,4 +29,11 @@ export function readNumber(typed, unit = "") {
   const value = (number === undefined ? 1 : Number(number)) * (pi ? Math.PI : 1) / (divisor === undefined ? 1 : Number(divisor));
   const shown = (sign === "-" ? -1 : 1) * value * factors[typedIn];
   return Number.isFinite(shown) ? { value: Number(shown.toPrecision(15)) } : refuse;
+}
+
+/** The numbers of a vector, as they would be typed one by one, or null: of "[0.1 -0.5] rad", "array([10, 20])", "(1,5; 2) m", "10 20 30". @param {string} typed */
+export function readVector(typed) {
+  const [, open, inside, unit] = /^(?:[^[(]*([[(])+)?([^[\]()]*?)[\])]*\s*(deg|rad|°|mm|cm|m)?$/.exec(typed.trim()) || [];
+  const numbers = (inside || "").trim().split(inside?.includes(";") ? /\s*;\s*/ : open ? /\s*,\s*|\s+/ : /,?\s+/);
+  return numbers.length > (open ? 1 : 2) ? numbers.map((number) => number + (unit || "")) : null;
 }

@@ -110,7 +110,6 @@ function canvasRenderer(MeshCat) {
       if (facade.coarseness < 1) return coarse.draw(gl, scene, camera, w, h);
       gl.getSize(inUse);
       if (inUse.x < w || inUse.y < h) gl.setSize(Math.max(w, inUse.x), Math.max(h, inUse.y), false);
-      gl.getSize(inUse);
       gl.setViewport(0, 0, w, h);
       gl.setScissor(0, 0, w, h);
       gl.setScissorTest(true);

@@ -286,8 +286,7 @@ function takeKeys(pane, camera, player, home) {
 // Gives what takes it away, once there is something better.
 function showFirst(model, pane, cover, views, drawn) {
   const view = {
-    change() {},
-    rest() {},
+    change() {}, rest() {}, // nothing to draw yet
     picture(bytes) {
       const image = element("img", { class: "ck-cover", alt: "" });
       image.onload = () => URL.revokeObjectURL(image.src);

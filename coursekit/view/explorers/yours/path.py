@@ -70,14 +70,21 @@ class Path(Explorer):
         for T in made:
             T[:3, :3] = back(self.mine.ask(name, T[:3, :3].copy()))
         angle, here = apart(made, right[some])[1], int(np.searchsorted(some, self.place))
-        tick = "" if angle[here] > BACK else " \N{CHECK MARK}"
-        sketch.frame("attitude", made[here], sketch.label + tick)
+        sketch.frame("attitude", made[here], self._label(sketch, angle[here] <= BACK))
         off = np.flatnonzero(angle > BACK)
         if not off.size:
             return "every attitude made again from your numbers: below 1e-7"
         at = here if here in off else off[0]
         told = f"at point {some[at] + 1} by {gap(0, angle[at])}"
         return f"{off.size} of {len(some)} attitudes made again from your numbers are off, {told}"
+
+    def _label(self, sketch, agrees):
+        """The name of an attitude. Those that agree lie upon each other and share one tick."""
+        ticked = "yours \N{CHECK MARK}"
+        named = [x["path"] for x in self.scene.labels if x["text"] == ticked]
+        if agrees and any(not path.startswith(f"{sketch.path}/") for path in named):
+            return ""
+        return ticked if agrees else sketch.label
 
     def _slerp(self, sketch, _values):
         """Attitudes between those of the two ends; the one of this share of the way stands at this point."""
@@ -89,7 +96,7 @@ class Path(Explorer):
         if np.abs(np.swapaxes(mine, -1, -2) @ mine - np.eye(3)).max() > 1e-6:
             raise Trouble("its columns are not three of length 1 at right angles")
         here[:3, :3] = mine[-1]
-        sketch.frame("between", here, sketch.label + ("" if angle[-1] > BACK else " \N{CHECK MARK}"))
+        sketch.frame("between", here, self._label(sketch, angle[-1] <= BACK))
         worst = int(angle.argmax())
         if angle[worst] <= BACK:
             return "every attitude between the two ends agrees, below 1e-7"
