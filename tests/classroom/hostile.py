@@ -829,6 +829,16 @@ return right(theta, l1, l2)
 """,
 )
 fk_kind(
+    "a_progress_bar",  # tqdm is among what everybody installs for the course
+    FULL,
+    """
+from tqdm import tqdm
+from tqdm.auto import trange
+return sum(right(theta, l1, l2) for one in tqdm(range(4)) for other in trange(2)) / 8
+""",
+    before="from tqdm.notebook import tqdm\nfor k in tqdm(range(3)):\n    pass",
+)
+fk_kind(
     "takes_every_processor",  # which makes answers of classmates late
     NO_FK,
     """

@@ -267,7 +267,7 @@ _OF_THE_HOST = ("/proc/sys", "/proc/sysrq-trigger", "/proc/irq", "/proc/bus", "/
 
 
 # All of Python's libraries that the box has. The course's own, and robotics by others, would give answers.
-LIBRARIES = ("numpy", "sympy", "mpmath", "matplotlib", "mpl_toolkits", "contourpy", "cycler")
+LIBRARIES = ("numpy", "sympy", "mpmath", "matplotlib", "mpl_toolkits", "contourpy", "cycler", "tqdm")
 NEEDED = ("dateutil", "six", "fontTools", "kiwisolver", "packaging", "PIL", "pyparsing")  # by those
 PACKAGES = "/packages"  # where they lie in the box
 
