@@ -24,7 +24,7 @@ from .already import not_a_pose, what_is_right
 from .attempt import Attempt, line_of_nan
 from .coded import another_word, ignored, remembers, with_decimals
 from .exercise import NONE, Exercise, fits, misshapen, thaw
-from .library import permitted
+from .library import not_there, permitted
 from .plain import in_plain_words
 from .repair import repair
 from .transforms import done_to_the_right_answer
@@ -111,7 +111,7 @@ def verdict(
     if all(good) and _rounded(exercise, examples, answers):
         return Verdict("named", "your numbers are rounded: give them as they are", step="rounded", example=0)
     if all(good):
-        return _right(examples, attempts, allowed)
+        return _right(examples, attempts, allowed, function)
     first = good.index(False)
     hint = _named(exercise, examples, answers)
     if not hint and function:
@@ -236,12 +236,17 @@ def _not_finite(exercise: Exercise, examples, answers, function, good=None) -> V
 # ---- 2 and 3: right, or a mistake with a name
 
 
-def _right(examples: list[Example], attempts: list[Attempt], allowed: tuple[str, ...]) -> Verdict:
+def _right(
+    examples: list[Example], attempts: list[Attempt], allowed: tuple[str, ...], function: Callable | None
+) -> Verdict:
     calls = dict.fromkeys(call for attempt in attempts for call in attempt.calls)
     forbidden = next((call for call in calls if not permitted(call, allowed)), None)
     if forbidden:
         name = forbidden.partition(".__")[0]  # making a Table is calling dh.Table
         text = f"the numbers are right, but it calls coursekit's own {name}: write that part yourself"
+        return Verdict("library", text, step="library")
+    if function and (package := not_there(function)):
+        text = f"the numbers are right, but {package} is not there when it is graded: numpy is"
         return Verdict("library", text, step="library")
     return Verdict("right", f"right on {len(examples)} examples", step="right")
 

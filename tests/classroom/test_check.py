@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import linecache
 import re
+import sys
 
 import numpy as np
 import pytest
@@ -151,6 +152,43 @@ def test_right_but_by_the_library():
     assert found.kind == "library"
     assert "the numbers are right, but it calls coursekit's own robots.planar_2r" in found.say
     assert verdict("fk", with_allowed_library).right
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "import fastmath\ndef fk(theta, l1, l2):\n    return right(theta, l1, l2) * fastmath.one()",
+        "from fastmath.inner import one\ndef fk(*a):\n    return [one() * x for x in right(*a)]",
+        "def fk(theta, l1, l2):\n    import fastmath.inner\n    return right(theta, l1, l2)",
+        "from fastmath import one\ndef half():\n    return one()\ndef fk(*a):\n    return half() * right(*a)",
+    ],
+)
+def test_right_but_by_a_package_that_grading_does_not_have(tmp_path, monkeypatch, source):
+    """On a machine of one's own more is installed; nobody should learn that from the grade."""
+    folder = tmp_path / "site-packages" / "fastmath"
+    folder.mkdir(parents=True)
+    for name in ("__init__.py", "inner.py"):
+        (folder / name).write_text("def one():\n    return 1")
+    monkeypatch.syspath_prepend(folder.parent)
+    space = {"right": RIGHT.fk}
+    exec("import numpy as np, tqdm, IPython, math, json\n" + source, space)
+    try:
+        found = verdict("fk", space["fk"])
+    finally:
+        for name in ("fastmath", "fastmath.inner"):
+            sys.modules.pop(name, None)
+    assert found.kind == "library"
+    assert found.say == "the numbers are right, but fastmath is not there when it is graded: numpy is"
+
+
+def test_what_grading_has_may_be_called():
+    space = {"right": RIGHT.fk}
+    exec(
+        "import numpy as np, tqdm, IPython, math, sympy\nfrom IPython.display import display\n"
+        "def fk(*a):\n    display; tqdm.tqdm; sympy.pi; math.pi\n    return np.array(right(*a))",
+        space,
+    )
+    assert verdict("fk", space["fk"]).right
 
 
 def test_a_wrong_function_that_calls_the_library_is_diagnosed_all_the_same():

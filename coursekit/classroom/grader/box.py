@@ -25,6 +25,7 @@ from pathlib import Path
 from typing import Any
 
 from ..course import ROOT
+from ..library import PRESENT
 from .syscalls import refused
 from .usage import IN_MEMORY, busy, cpu, family, used
 
@@ -267,7 +268,7 @@ _OF_THE_HOST = ("/proc/sys", "/proc/sysrq-trigger", "/proc/irq", "/proc/bus", "/
 
 
 # All of Python's libraries that the box has. The course's own, and robotics by others, would give answers.
-LIBRARIES = ("numpy", "sympy", "mpmath", "matplotlib", "mpl_toolkits", "contourpy", "cycler", "tqdm")
+LIBRARIES = PRESENT
 NEEDED = ("dateutil", "six", "fontTools", "kiwisolver", "packaging", "PIL", "pyparsing")  # by those
 PACKAGES = "/packages"  # where they lie in the box
 
