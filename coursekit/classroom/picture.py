@@ -76,7 +76,7 @@ def _drawn(right: dict, mine: dict) -> bytes:
 
 
 def _cropped(pixels: np.ndarray) -> bytes:
-    """Without the empty paper round it."""
+    """Without the empty paper round it, nor between it and what its colours mean."""
     from PIL import Image
 
     inked: np.ndarray = np.min(pixels, axis=-1) < 250
@@ -84,7 +84,9 @@ def _cropped(pixels: np.ndarray) -> bytes:
     top, bottom = max(rows[0] - MARGIN, 0), rows[-1] + MARGIN
     left, right = max(columns[0] - MARGIN, 0), columns[-1] + MARGIN
     file = io.BytesIO()
-    Image.fromarray(pixels[top:bottom, left:right]).save(file, "PNG")
+    words = np.flatnonzero(np.diff(rows) > 1)[-1:]  # after this row of ink comes what the colours mean
+    empty = np.arange(rows[words][0] + MARGIN, rows[words + 1][0] - MARGIN) if words.size else []
+    Image.fromarray(np.delete(pixels, empty, axis=0)[top : bottom - len(empty), left:right]).save(file, "PNG")
     return file.getvalue()
 
 

@@ -39,7 +39,9 @@ _FITS = """<script>{
     frame.style.height = `${data.height}px`;
   });
 }</script>"""
-HINT = "No kernel runs here: sliders, or the buttons under it, move the arm; run the notebook for the rest."
+HINT = (
+    "Sliders, or the buttons under the picture, move the arm here. The rest needs Python: run the notebook."
+)
 _ONE_AT_A_TIME = threading.Lock()  # a new explorer closes the one of its name, as when a cell is run again
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -12,7 +13,7 @@ import pytest
 
 from coursekit.classroom.author import notebook
 from coursekit.classroom.course import the_course
-from coursekit.classroom.grader import box, class_page, clinic, overview
+from coursekit.classroom.grader import box, class_page, clinic, overview, report
 from coursekit.classroom.grader.marks import Mark, Notebook, Standing
 
 
@@ -138,3 +139,16 @@ forged = setattr(classroom, "diagnose", lambda *a: type("", (), {"say": "look at
     other = code.replace("sin(alpha)", "cos(alpha)", 1)
     one.lines(course, [*setup, forged, "a = 1; \\\nprint(a)", other], ["dh_transform"])
     assert "here" not in str(one.lines(course, [*setup, other], ["dh_transform"])), "somebody else's page"
+
+
+def test_a_notebook_that_was_not_handed_in_takes_one_line_of_a_students_page(tmp_path):
+    """Unless something was decided about an exercise of it."""
+    notes = ["nothing handed in"]
+    marks = [Mark(name, 0, 3, notes[0]) for name in ("fk", "ik")]
+    lacking = Notebook("nb01", "01_arm.ipynb", marks, notes, there=False)
+    report.write_page(tmp_path / "a.html", Standing("a", "", {"nb01": lacking}))
+    page = (tmp_path / "a.html").read_text("utf-8")
+    assert page.count("nothing handed in") == 1 and "fk" not in page and "0 of 6" in page
+    decided = replace(lacking, marks=[replace(marks[0], points=3, note="seen in class"), marks[1]])
+    report.write_page(tmp_path / "a.html", Standing("a", "", {"nb01": decided}))
+    assert "seen in class" in (tmp_path / "a.html").read_text("utf-8")

@@ -15,7 +15,7 @@ from coursekit.classroom.check import examples_of, judged
 from coursekit.classroom.course import the_course
 from coursekit.classroom.exercises import looks
 from coursekit.classroom.mistakes import Solved
-from coursekit.classroom.picture import YOURS, picture
+from coursekit.classroom.picture import MARGIN, YOURS, picture
 from coursekit.view.paint import PALETTE
 
 COURSE = the_course()
@@ -47,6 +47,17 @@ def test_every_typical_mistake_can_be_drawn(unit, exercise, monkeypatch):
 
 def test_most_exercises_have_something_to_see():
     assert len(SEEN) >= 20
+
+
+@pytest.mark.parametrize("name", ["elbow_angle", "lost_motion", "fk_poe"])
+def test_what_the_colours_mean_stands_close_under_the_picture(name, monkeypatch):
+    monkeypatch.setattr("coursekit.classroom.verdict.repair", lambda *_: "")
+    unit, exercise = COURSE.find(name)
+    for function in COURSE.wrong(unit)[name].values():
+        if png := pictured(unit, exercise, function):
+            inked = np.asarray(Image.open(io.BytesIO(png)).convert("L")).min(axis=1) < 250
+            gaps = np.diff(np.flatnonzero(inked))
+            assert gaps[gaps > 1][-1] <= 2 * MARGIN + 1
 
 
 def test_what_cannot_be_drawn_is_left_out():

@@ -20,7 +20,7 @@ STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; max-width: 75rem; margin: 1.5rem auto; padding: 0 1rem;
        color: var(--ink); }
 h2 { margin: 2rem 0 .3rem; } p { margin: .3rem 0; } .soft { color: var(--soft); }
-.wide { overflow-x: auto; }
+.wide { overflow-x: auto; margin-right: calc(50% - 50vw + 1rem); } /* to the edge of the window */
 table { border-collapse: collapse; } td, th { padding: .2rem .5rem; text-align: left; vertical-align: top; }
 tbody tr { border-top: 1px solid var(--line); } code { font-size: .95em; }
 td.n { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
@@ -38,7 +38,10 @@ ul { margin: 0; padding-left: 1.1rem; } details summary { cursor: pointer; }
 .off { background: var(--off); }
 a { color: inherit; }
 @media (max-width: 45rem) { .list thead { display: none; } .list tr, .list td { display: block; }
-  .list tr { padding: .5rem 0; } .list td, .list td.n { padding: .05rem 0; text-align: left; } }
+  .list tr { padding: .5rem 0; } .list td, .list td.n { padding: .05rem 0; text-align: left; }
+  .list td:not(:last-child) { display: inline; padding-right: .6rem; }
+  .list br { display: none; } .list td.n { white-space: normal; }
+  .list .soft span { margin-right: .6rem; white-space: nowrap; } .map th[scope=row] { max-width: 8rem; } }
 @media print { body { max-width: none; font-size: 11px; } tr { break-inside: avoid; }
   .wide { overflow: visible; } details::details-content { display: block; content-visibility: visible; } }
 """
@@ -109,7 +112,8 @@ def _exercise(item: Item, names: dict[str, str]) -> str:
     percent = round(100 * item.share)
     thirds = ""
     if item.upper is not None and item.lower is not None:
-        thirds = f"<span class='soft'>best third {item.upper:.0%}<br>last third {item.lower:.0%}</span>"
+        best, last = (f"third {round(100 * share)} %" for share in (item.upper, item.lower))
+        thirds = f"<span class='soft'><span>best {best}</span><br><span>last {last}</span></span>"
     doubt = f"<p><strong>{text(item.doubt)}</strong></p>" if item.doubt else ""
     lines = [
         f"<details><summary>{len(m.students)} × {_said(m)}</summary>{_people(m.students, names)}</details>"
@@ -134,7 +138,7 @@ def _help(class_: list[Standing], found: list[Item], names: dict[str, str]) -> s
         key=lambda mistake: -len(mistake.students),
     )
     groups = "".join(
-        f"<li><code>{text(m.exercise)}</code> {_said(m)}: {_people(m.students, names)}</li>"
+        f"<li><code>{text(m.exercise)}</code>: {_said(m)}. {_people(m.students, names)}</li>"
         for m in common[:12]
     )
     single = "".join(

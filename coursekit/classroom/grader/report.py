@@ -21,7 +21,8 @@ table { border-collapse: collapse; width: 100%; }
 caption { text-align: left; font-weight: 600; padding: 1rem 0 .3rem; }
 td, th { border-bottom: 1px solid #8888; padding: .3rem .6rem .3rem 0; }
 td, th { text-align: left; vertical-align: top; }
-td.points { white-space: nowrap; } code { font-size: .95em; }
+td.points { white-space: nowrap; } code { font-size: .95em; overflow-wrap: anywhere; }
+th:first-child { width: 30%; } th:nth-child(2) { width: 5rem; }
 :root { color-scheme: light dark; }
 """
 
@@ -104,6 +105,10 @@ def _table(nb: Notebook) -> str:
     points = "not graded" if nb.points is None else f"{whole(nb.points)} of {whole(nb.of)}"
     when = f", handed in {nb.submitted:%Y-%m-%d %H:%M}" if nb.submitted and nb.there else ""
     notes = "".join(f"<p>{text(note)}</p>" for note in nb.notes)
+    if not nb.there and all(mark.text in nb.notes and not mark.note for mark in nb.marks):
+        return (
+            f"<table><caption>{text(nb.name)}: {points}</caption></table>{notes}"  # nothing of any exercise
+        )
     return (
         f"<table><caption>{text(nb.name)}: {points}{when}</caption>"
         f"<thead><tr>{HEAD}</tr></thead><tbody>{''.join(map(_row, nb.marks))}</tbody></table>{notes}"
