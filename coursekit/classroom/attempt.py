@@ -88,7 +88,11 @@ def attempt(exercise: Exercise, function: Callable, arguments: list) -> Attempt:
 
 
 def line_of_nan(function: Callable, arguments: list) -> tuple[int, str]:
-    """(line, what numpy says) where NaN or infinity first arises, (0, '') if that cannot be found."""
+    """(line, what numpy says) where NaN or infinity first arises, (0, '') if that cannot be found.
+
+    In a browser numpy cannot say it, nor anywhere of a NaN that is written down: then it is the line after
+    which a variable holds one, without words.
+    """
     try:
         with _quietly(io.StringIO()), np.errstate(divide="raise", invalid="raise"):
             function(*thaw(arguments))
@@ -101,8 +105,11 @@ def line_of_nan(function: Callable, arguments: list) -> tuple[int, str]:
             said = said.replace("in sqrt", "in power")
         return line - frame.f_code.co_firstlineno + 1, said
     except Exception:
-        pass
-    return 0, ""
+        return 0, ""
+    watch = _FirstNan()
+    with contextlib.suppress(Exception, Endless), _quietly(io.StringIO()), watch:
+        function(*thaw(arguments))
+    return (watch.line - watch.frame.f_code.co_firstlineno + 1 if watch.frame else 0), ""
 
 
 def _read(exercise: Exercise, value: Any, printed: str) -> Attempt:
@@ -177,6 +184,31 @@ class _Watch:
             self.frame, self.line = frame, frame.f_lineno
             raise Endless
         return self._line
+
+
+class _FirstNan(_Watch):
+    """Ends the call after the line that first leaves NaN or infinity in a variable, or in the answer."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.last: dict[FrameType, int] = {}
+
+    def _line(self, frame: FrameType, event: str, value: Any):
+        held = [*frame.f_locals.values(), *([value] if event == "return" else [])]
+        if frame in self.last and not all(map(_is_finite, held)):
+            self.frame, self.line = frame, self.last[frame]
+            raise Endless
+        self.last[frame] = frame.f_lineno
+        return super()._line(frame, event, value) and self._line
+
+
+def _is_finite(value: Any) -> bool:
+    if not isinstance(value, float | np.floating | np.ndarray | list | tuple):
+        return True
+    try:
+        return bool(np.isfinite(np.asarray(value, float)).all())
+    except (TypeError, ValueError):  # robots, words; results of different shapes
+        return not isinstance(value, tuple) or all(map(_is_finite, value))
 
 
 @cache

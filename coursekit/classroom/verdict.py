@@ -229,7 +229,7 @@ def _not_finite(exercise: Exercise, examples, answers, function, good=None) -> V
     line, what = line_of_nan(function, examples[k].arguments) if function else (0, "")
     text = f"{where}the answer holds NaN or infinity"
     if line:
-        text += f"; it comes from line {line} ({in_plain_words(what) or what})"
+        text += f"; it comes from line {line}" + (f" ({in_plain_words(what) or what})" if what else "")
     return Verdict("misfit", text, step="nan", example=k)
 
 

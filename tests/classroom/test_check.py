@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import linecache
 import re
@@ -11,7 +12,7 @@ import numpy as np
 import pytest
 
 from coursekit import classroom
-from coursekit.classroom import CheckFailed, check, compare
+from coursekit.classroom import CheckFailed, attempt, check, compare
 from coursekit.classroom.author import tables
 from coursekit.classroom.check import demand, examples_of, judged
 from coursekit.classroom.course import the_course
@@ -106,6 +107,27 @@ def test_what_cannot_be_judged(function, kind, text):
     found = verdict("fk", function)
     assert found.kind == kind, found
     assert re.search(text, found.say), found.say
+
+
+@pytest.mark.parametrize(
+    "body, line",
+    [
+        ("x = theta - theta\ny = np.sin(x) / x\nreturn y", 3),
+        ("return l1, np.sqrt(-abs(theta))", 2),
+        ("def root(x): return np.sqrt(x)\nx = root(-l1 * np.ones(2))\nreturn x", 1),
+        ("x = np.full(2, np.nan)\nfor i in range(1):\n    x[i] = theta[i]\nreturn x", 2),
+    ],
+    ids=["a quotient", "in one of two results", "in a function of one's own", "written down"],
+)
+def test_where_nan_comes_from_is_found_where_numpy_is_silent(body, line, monkeypatch):
+    """In a browser it raises nothing, whatever it is told."""
+
+    class Silent(contextlib.nullcontext):
+        def __init__(self, **_):
+            super().__init__()
+
+    monkeypatch.setattr(attempt.np, "errstate", Silent)
+    assert attempt.line_of_nan(written(body), [np.array([0.1, 0.2]), 1.0, 2.0]) == (line, "")
 
 
 @pytest.mark.parametrize(
