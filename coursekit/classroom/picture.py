@@ -85,7 +85,7 @@ def _cropped(pixels: np.ndarray) -> bytes:
     left, right = max(columns[0] - MARGIN, 0), columns[-1] + MARGIN
     file = io.BytesIO()
     words = np.flatnonzero(np.diff(rows) > 1)[-1:]  # after this row of ink comes what the colours mean
-    empty = np.arange(rows[words][0] + MARGIN, rows[words + 1][0] - MARGIN) if words.size else []
+    empty = [*range(rows[words[0]] + MARGIN, rows[words[0] + 1] - MARGIN)] if words.size else []
     Image.fromarray(np.delete(pixels, empty, axis=0)[top : bottom - len(empty), left:right]).save(file, "PNG")
     return file.getvalue()
 

@@ -92,8 +92,17 @@ def not_run(name: str) -> str:
     """Why the newest cell that writes this function did not run, so that an older one is there; or ''."""
     wrote = re.compile(rf"^def {re.escape(name)}\b", re.MULTILINE)
     newest = next((text for text in reversed(cells()) if wrote.search(text)), "")
+    if not _unread(newest):
+        return ""
+    from IPython.core.inputtransformer2 import TransformerManager
+
+    return _unread(TransformerManager().transform_cell(newest))  # %time and !ls are no errors
+
+
+def _unread(text: str) -> str:
+    """Why this is no Python, or ''."""
     try:
-        ast.parse(newest)
+        ast.parse(text)
     except SyntaxError as error:
         return f"line {error.lineno}: {error.msg}"
     except (ValueError, RecursionError):

@@ -69,9 +69,10 @@ def test_a_cell_that_did_not_run_is_told_before_the_function_that_is_still_there
     first, second, *_ = capsys.readouterr().out.splitlines()
     assert "did not run: line 1: expected ':'" in first
     assert second.startswith("… fk_dh")
-    given[3] = stub  # it runs now
-    check("fk_dh", unwritten)
-    assert capsys.readouterr().out.startswith("… fk_dh")
+    for runs in (stub, f"%matplotlib inline\n!ls\n{stub}", f"%%time\n{stub}"):
+        given[3] = runs
+        check("fk_dh", unwritten)
+        assert capsys.readouterr().out.startswith("… fk_dh")
 
 
 # ---- 1: it cannot be judged
