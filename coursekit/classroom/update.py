@@ -11,6 +11,7 @@ import contextlib
 import json
 import os
 import shutil
+import stat
 import tempfile
 import zipfile
 from collections.abc import Iterator
@@ -53,10 +54,12 @@ def update(new: Path, folder: Path | None = None) -> str:
 
 def plan(new: Path, folder: Path) -> tuple[dict[str, bytes | None], str]:
     """What an update would do, with nothing done: ({file: new bytes, or None where it goes}, its text)."""
+    _follow_no_link(folder, [RELEASE, STUDENT, BEFORE.as_posix()])
     before = _list(folder, "nothing can be updated there")
     with _opened(Path(new), folder) as source:
         after = _list(source, "name the folder or the zip of a release")
         _same_course(folder, before, source, after)
+        _follow_no_link(folder, [*before["files"], *after["files"]])
         contents, told = _planned(folder, before, source, after)
     if not contents:
         return {}, f"{folder} holds this release already: nothing changed"
@@ -101,6 +104,20 @@ def _list(folder: Path, otherwise: str) -> dict:
     except (ValueError, KeyError, TypeError):
         pass
     raise ValueError(f"{path} is damaged: title, version and files are expected in it; {otherwise}")
+
+
+def _follow_no_link(folder: Path, names: list[str]) -> None:
+    """ValueError if one of these files, or a folder it lies in, is a link, or is none.
+
+    On a hub an instructor brings folders up to date in which students write: a link could show them a
+    classmate's work, or lead to a file of the instructor's.
+    """
+    places = {folder / part for name in names for part in (Path(name), *Path(name).parents)}
+    for place in sorted(places - {folder}):
+        with contextlib.suppress(OSError):  # it is not there
+            mode = place.lstat().st_mode
+            if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+                raise ValueError(f"{place} is a link or no file: put a copy of what is meant in its place")
 
 
 @contextlib.contextmanager
@@ -218,5 +235,7 @@ def _write(folder: Path, contents: dict[str, bytes | None]) -> None:
             continue
         target.parent.mkdir(parents=True, exist_ok=True)
         beside = target.with_name(f".{target.name}.new")  # whole or not at all
-        beside.write_bytes(data)
+        beside.unlink(missing_ok=True)
+        with open(beside, "xb") as file:  # nothing that stands there is followed
+            file.write(data)
         os.replace(beside, target)

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import copy
 import json
+import os
+import re
 import shutil
 import zipfile
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -255,6 +258,51 @@ def refused(mine, source, match):
         update.update(source, mine)
     assert "\n" not in str(caught.value)
     assert {p: p.read_bytes() for p in mine.rglob("*") if p.is_file()} == before
+
+
+@pytest.mark.skipif(os.name == "nt", reason="links are made otherwise on Windows")
+@pytest.mark.parametrize(
+    "place", ["notebook", "folder of notebooks", "release.json", "kept", "listed", "pipe"]
+)
+def test_no_link_is_followed(course, mine, tmp_path, place):
+    """On a hub an instructor brings folders up to date in which students write, with rights of their own."""
+    new = corrected(course, tmp_path, correct)
+    elsewhere = tmp_path / "classmate"
+    shutil.copytree(mine, elsewhere)
+    (elsewhere / "before").mkdir()
+    (elsewhere / "before" / "x").write_text("hers")
+    before = {path: path.read_bytes() for path in elsewhere.rglob("*") if path.is_file()}
+    at = {
+        "notebook": Path(NAME),
+        "folder of notebooks": Path("notebooks"),
+        "release.json": Path("release.json"),
+        "kept": Path(".coursekit"),
+        "listed": Path("away"),
+        "pipe": Path(NAME),
+    }[place]
+    if (mine / at).is_dir():
+        shutil.rmtree(mine / at)
+    (mine / at).unlink(missing_ok=True)
+    if place == "pipe":
+        os.mkfifo(mine / at)
+    else:
+        (mine / at).symlink_to(elsewhere if place in ("kept", "listed") else elsewhere / at)
+    if place == "listed":
+        listed = json.loads((mine / "release.json").read_text())
+        (mine / "release.json").write_text(
+            json.dumps({**listed, "files": [*listed["files"], "away/before/x"]})
+        )
+    with pytest.raises(ValueError, match=f"{re.escape(str(mine / at))} is a link or no file"):
+        update.update(new, mine)
+    assert {path: path.read_bytes() for path in elsewhere.rglob("*") if path.is_file()} == before
+
+
+@pytest.mark.skipif(os.name == "nt", reason="links are made otherwise on Windows")
+def test_a_link_where_a_file_is_written_beside_is_removed(course, mine, tmp_path):
+    (tmp_path / "hers").write_text("hers")
+    (mine / NAME).with_name(f".{Path(NAME).name}.new").symlink_to(tmp_path / "hers")
+    update.update(corrected(course, tmp_path, correct), mine)
+    assert (tmp_path / "hers").read_text() == "hers"
 
 
 def test_an_older_release_is_refused(course, mine, tmp_path):

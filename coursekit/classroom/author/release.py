@@ -75,7 +75,8 @@ def _refuse_other(out: Path, ids: set[str]) -> None:
     if (out / update.RELEASE).exists():
         raise ValueError(f"{out} is a release for everybody; name another folder for one folder a student")
     for name in sorted(ids):
-        if (out / name).exists() and not (out / name / update.RELEASE).is_file():
+        there = (out / name).exists() and not (out / name / update.RELEASE).is_file()
+        if there or (out / name).is_symlink():
             raise ValueError(f"{out / name} exists already and is no release: name a new folder")
 
 
