@@ -6,6 +6,7 @@ import base64
 import hashlib
 import html
 import importlib.util
+import io
 import json
 import re
 import shutil
@@ -15,6 +16,7 @@ from pathlib import Path
 import nbformat
 from nbconvert.filters import Highlight2HTML, ansi2html, markdown2html
 from nbformat import NotebookNode
+from PIL import Image
 from pygments.formatters import HtmlFormatter
 
 from ..classroom.author.notebook import is_check, is_solution
@@ -170,11 +172,14 @@ class _Body:
     def picture(self, name: str, png: str, alt: str, line: str) -> str:
         """A figure, or in its place an explorer that moves; the picture of that one is for paper."""
         file = f"pictures/{name}.png"
-        (self.out / file).write_bytes(base64.b64decode(png))
+        data = base64.b64decode(png)
+        (self.out / file).write_bytes(data)
         picture = f'<img src="{file}" alt="{html.escape(alt or "figure; its caption follows")}">'
         page = reopened.page_of(line, common=f"../{_EXPLORER}")
         if page is None:
-            return f'<figure class="picture">{picture}</figure>'
+            corner = Image.open(io.BytesIO(data)).convert("RGB").tobytes()[:3]
+            kind = "picture" if min(corner) > 240 else "picture kept"
+            return f'<figure class="{kind}">{picture}</figure>'
         explorer = self.explorers.setdefault(page, f"explorers/{name}.html")
         (self.out / explorer).write_text(page, encoding="utf-8")
         frame = f'<iframe data-src="{explorer}" title="{html.escape(line.split(":")[0])}"></iframe>'

@@ -16,6 +16,7 @@ from coursekit.view.chain import chain, hinges
 from coursekit.view.controls import Slider, Sliders
 
 TURNS = {"yaw": np.pi, "pitch": np.pi / 2, "roll": np.pi}  # how far each goes either way
+PLACES = 4000  # of the tool that are looked at, to know how far it comes
 SAMPLES = 121  # along a slider; what is narrower than the gap between two (a pixel or two) may be missed
 FINER = 16, 2  # an end is looked for among so many values between two samples, and again so often
 HELD = 0.2  # sizes of the arm: as far round a target its handles may stand
@@ -104,11 +105,16 @@ def pose_sliders(T: ArrayLike, robot: Robot, reach: Reach | None = None) -> Pose
 
     They go a little further than the arm, so that a target may be out of its reach. `reach`: see `reachable`.
     """
-    way = np.maximum(np.abs(robot.q_min), np.abs(robot.q_max))
-    stretched = chain(robot).size + np.where(np.isfinite(way), way, 1.0)[~hinges(robot)].sum()
-    far = np.ceil(12 * stretched) / 10
     T = checks.pose(checks.array(T, (4, 4), "T"), "T")
-    x_y_z = (Slider(n, p, -far, far, "mm") for n, p in zip("xyz", T[:3, 3], strict=True))
+    span = np.where(hinges(robot), np.pi, 1.0)
+    low, high = np.clip(robot.q_min, -span, None), np.clip(robot.q_max, None, span)
+    share = np.random.default_rng(0).uniform(-0.3, 1.3, (PLACES, robot.n)).clip(0, 1)  # the ends among them
+    reached = robot.fk(low + share * (high - low))[:, :3, 3]
+    reached = np.vstack([reached, T[:3, 3]])
+    far = np.array([-reached.min(axis=0), reached.max(axis=0)]) + 0.08 * chain(robot).size
+    far = np.ceil(10 * far) / 10  # down and up
+    far = np.where(np.ptp(far, axis=0) < 0.15, far.max(axis=0), far)  # a difference by chance
+    x_y_z = (Slider(n, p, -down, up, "mm") for n, p, down, up in zip("xyz", T[:3, 3], *far, strict=True))
     turns = zip(TURNS.items(), rotations.zyx(T[:3, :3]), strict=True)
     sliders = PoseSliders("pose", [*x_y_z, *(Slider(n, t, -end, end, "deg") for (n, end), t in turns)])
     if reach is not None:

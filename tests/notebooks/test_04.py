@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import base64
+import io
 import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 import sympy as sp
+from PIL import Image
 
 from coursekit import ik, lie, robots, singularity, symbolic
 from coursekit.classroom.author import notebook
@@ -238,3 +241,18 @@ def test_straight_up_is_10_mm_from_axis_1():
     q = [0, -np.pi / 2, 0, 0, 0.8, 0]
     assert singularity.factors(KR6, q)["shoulder"] == pytest.approx(-0.010, abs=1e-12)
     assert singularity.sigma_min(KR6, q) == pytest.approx(0.00705, abs=1e-5)
+
+
+def test_of_the_figures_the_map_alone_keeps_its_colours_on_a_dark_page():
+    """Pages turn what is on white paper over: there dark would be light, and its caption wrong."""
+    pictures = {
+        id: base64.b64decode("".join(output["data"]["image/png"]))
+        for id, cell in CELLS.items()
+        for output in cell.get("outputs", [])
+        if "".join(output.get("data", {}).get("text/plain", "")).startswith("<Figure")
+    }
+    papers = {
+        id: min(Image.open(io.BytesIO(png)).convert("RGB").tobytes()[:3]) for id, png in pictures.items()
+    }
+    kept = [id for id, paper in papers.items() if paper <= 240]
+    assert [CELLS[id]["source"].count("figures.singular_map(") for id in kept] == [1]

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from coursekit import ik, robots, rotations, view
+from coursekit.view import target
 
 
 @pytest.fixture
@@ -98,7 +99,7 @@ def test_a_branch_that_ends_hands_over_to_the_nearest(panel):
 
 def test_out_of_reach_the_arm_stays_and_the_closest_pose_is_shown(panel):
     before, pose = panel.scene.robots["robot"].theta, panel.values["pose"]
-    pose[2] = 1.6
+    pose[2] = 1.5
     panel.set(pose=pose)
     np.testing.assert_array_equal(panel.scene.robots["robot"].theta, before)
     assert "out of reach" in panel.line.value
@@ -207,7 +208,7 @@ def test_the_bands_hold_what_is_shown_and_follow_the_other_sliders(panel):
     pose = panel.values["pose"]
     panel.set(pose=[*pose[:2], pose[2] + 0.1, *pose[3:]])
     assert x.bands != before and any(low <= x.value <= high for low, high in x.bands[0])
-    panel.set(pose=[*pose[:2], 1.6, *pose[3:]])
+    panel.set(pose=[*pose[:2], 1.5, *pose[3:]])
     assert x.bands == roll.bands == [[], []]
 
 
@@ -229,3 +230,15 @@ def test_an_arm_without_a_formula_has_no_bands():
     target.sliders[0].set_state({"value": target.sliders[0].value + 10, "live": True})
     assert target not in panel._stale  # which would draw everything once more when the drag ends
     panel.close()
+
+
+@pytest.mark.parametrize("name", robots.all())
+def test_the_sliders_of_a_target_end_a_little_beyond_what_the_tool_can_reach(name):
+    robot = robots.all()[name]
+    sliders = target.pose_sliders(robot.M, robot).used[:3]
+    free = np.where(np.array(robot.joint_types) == "prismatic", 1.0, np.pi)
+    low, high = np.clip(robot.q_min, -free, None), np.clip(robot.q_max, None, free)
+    places = robot.fk(np.random.default_rng(5).uniform(low, high, (20000, robot.n)))[:, :3, 3]
+    for slider, way in zip(sliders, [*places.T], strict=True):
+        assert slider.min <= 1000 * way.min() and 1000 * way.max() <= slider.max
+        assert slider.max - slider.min < 1000 * (1.25 * np.ptp(way) + 0.3)

@@ -99,8 +99,9 @@ class _Screws(Explorer):
         # a slide's v is a direction and owes nothing to a lever
         lever = T[:3, 3] if self.slides(i) else self.q
         scene.line("/ck/lever", T[:3, 3], lever)
-        drawn = 0.3 * scene.size * v if self.slides(i) else v + np.cross(w, T[:3, 3])
-        scene.arrow("/ck/v", T[:3, 3], drawn, color="trace", label="v")
+        # half of it: the whole, of a tool a metre away, would leave the picture
+        drawn = 0.3 * scene.size * v if self.slides(i) else (v + np.cross(w, T[:3, 3])) / 2
+        scene.arrow("/ck/v", T[:3, 3], drawn, color="trace", label="v" if self.slides(i) else "v/2")
         self.turn.word = f"theta{i + 1}"
         if self.pointed != (letter, i, values["slide"]):
             self.pointed = (letter, i, values["slide"])
@@ -112,12 +113,14 @@ class _Screws(Explorer):
             q, slides = self.q if k == i else self.origins[k], self.slides(k)
             q = axes.foot(q, q if slides else self.points[k], self.directions[k])
             own, at, thick = f"S{k + 1}", T[:3, 3], 0.009 * self.scene.size
-            v = 0.3 * self.scene.size * S[3:] if slides else S[3:] + np.cross(S[:3], at)
+            v = 0.3 * self.scene.size * S[3:] if slides else (S[3:] + np.cross(S[:3], at)) / 2
             path, color = f"/ck/screws/{k + 1}", pointing.COLOR
             parts = {
                 "w": self.scene.screw_axis(f"{path}/w", S, label=own, at=q, color=color, radius=thick),
                 "q": self.scene.line(f"{path}/q", at, at if slides else q, color, f"q{k + 1}", 0.6 * thick),
-                "v": self.scene.arrow(f"{path}/v", at, v, color, f"v{k + 1}", thick),
+                "v": self.scene.arrow(
+                    f"{path}/v", at, v, color, f"v{k + 1}" if slides else f"v{k + 1}/2", thick
+                ),
             }
             for name, drawing in parts.items():
                 pointing.mean(drawing, own, *([name] if k == i else []))

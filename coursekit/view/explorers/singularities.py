@@ -116,7 +116,8 @@ class _Singularities(yours.Singularities, Explorer):
             wire = np.linspace(*ends, 33)
             path = self.arm.link(k + 1) + "/line"
             self.lines.append(scene.curve(path, wire, "axis", 0.002 * scene.size))
-            scene.point(f"{path}/number", ends[1], str(k + 1), "axis", 0.004 * scene.size)
+            upper = ends[0 if ends[0, 2] > ends[1, 2] + 1e-9 else 1]  # the other may be under the floor
+            scene.point(f"{path}/number", upper, str(k + 1), "axis", 0.004 * scene.size)
         pointing.axes(scene, self.arm, FACTOR_AT.__getitem__ if self.split else "J{}".format)
         if self.split:  # the wrist's centre, for elbow and shoulder
             wrist = scene.point(

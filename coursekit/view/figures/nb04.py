@@ -93,6 +93,9 @@ def _sigma_over(robot, i, j, held):
 def singular_map(robot: Robot, theta: ArrayLike, i: int, j: int, marks: Mapping[str, ArrayLike]) -> None:
     """`draw_map` with marked configurations. marks: text -> (theta_i, theta_j) in radians."""
     ax = blank((6.4, 4.2), grid=0)
+    ax.figure.set_facecolor(
+        "#EEEEEE"
+    )  # white paper is turned over on dark pages, where dark means small, too
     draw_map(ax, robot, theta, i, j)
     for (name, place), marker in zip(marks.items(), "XosD", strict=False):
         ax.plot(*np.degrees(place), marker, color="#F07A2B", mec="w", ms=9)

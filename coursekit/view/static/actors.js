@@ -19,7 +19,7 @@ function makeLabels(THREE, viewer, pane, renderer) {
     set(list) {
       labels = list.map(({ path, pos, text, cls }) => ({ span: element("span", { class: `ck-label ${cls || ""}` }, text), pos,
         path: splitPath(path), isWord: !["x", "y", "z", "tick"].includes(cls), wide: 7.2 * text.length + 8 }));
-      labels.sort((a, b) => b.isWord - a.isWord);
+      labels.sort((a, b) => b.isWord - a.isWord || a.wide - b.wide); // long names give way
       layer.replaceChildren(...labels.map((label) => label.span));
     },
     place(handles) {
