@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import json
 import re
+import signal
 
 import numpy as np
 import pytest
@@ -144,3 +145,15 @@ def test_a_damaged_notebook_is_named(submissions, tmp_path):
     (tmp_path / "in" / "di" / COURSE.notebook("nb02").name).write_text(json.dumps({"cells": 3}))
     with pytest.raises(ValueError, match=r"02_msb_derivation\.ipynb: not a readable notebook"):
         viva.viva("di", tmp_path / "in", tmp_path / "out")
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="Windows has none")
+def test_a_notebook_that_takes_hours_to_read_is_named(tmp_path, monkeypatch):
+    """For Python's tokenizer each of the spaces is an error of its own."""
+    monkeypatch.setattr(viva, "READING", 0.5, raising=False)
+    (tmp_path / "in" / "slow").mkdir(parents=True)
+    cell = {"cell_type": "code", "source": "x" + " " * 30_000 + "!"}
+    name = COURSE.notebook("nb01").name
+    (tmp_path / "in" / "slow" / name).write_text(json.dumps({"cells": [cell]}))
+    with pytest.raises(ValueError, match=r"to read its code takes more than 0.5 s"):
+        viva.viva("slow", tmp_path / "in", tmp_path / "out")

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import ast
+import contextlib
 import json
 import re
+import signal
+import threading
+from collections.abc import Iterator
 
 LARGEST = 20_000_000  # bytes of a notebook
 LONGEST = 200_000  # characters of a cell: more takes Python's own reader minutes
@@ -20,6 +24,32 @@ _WRITE = "open({!r}, {!r}, encoding='utf-8').write({!r})\n__import__('importlib'
 
 class Unreadable(ValueError):
     """No notebook of the kind that JupyterLab writes; the text says what it is."""
+
+
+class _Late(BaseException):
+    """The time to read a notebook is over. Not an Exception: IPython's reader catches those."""
+
+
+@contextlib.contextmanager
+def in_time(seconds: float) -> Iterator[None]:
+    """ValueError if it takes longer: there are texts that Python's own tokenizer would read for hours."""
+
+    def ring(*_: object) -> None:
+        raise _Late
+
+    if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGALRM, ring)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    except _Late:
+        text = f"not a readable notebook (to read its code takes more than {seconds:g} s): mind long lines"
+        raise ValueError(text) from None
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
 
 
 def sources(data: bytes) -> tuple[list[str], list[str]]:

@@ -24,6 +24,7 @@ from .frames import frame_question
 from .handed_out import handed_out
 from .report import STYLE, page_name
 
+READING = 20.0  # seconds for a notebook
 WRITTEN = 3  # lines that a function has at least, if there are longer ones
 
 
@@ -97,8 +98,9 @@ def _handed_in(folder: Path, student: str, course: Course) -> tuple[list[Written
         if folder.is_symlink() or path.is_symlink() or not path.is_file():
             continue
         try:
-            data = path.read_bytes()
-            sources, _ = cells.sources(data)
+            with open(path, "rb") as file, cells.in_time(READING):
+                data = file.read(cells.LARGEST + 1)
+                sources, _ = cells.sources(data)
         except ValueError as error:
             notes.append(f"{path.name}: {error}")
             continue

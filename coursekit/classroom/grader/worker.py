@@ -12,12 +12,10 @@ import contextlib
 import json
 import os
 import shutil
-import signal
 import tempfile
 import threading
 import time
 import zlib
-from collections.abc import Iterator
 from dataclasses import asdict
 from functools import cache
 from pathlib import Path
@@ -62,32 +60,6 @@ def main() -> None:
                 data = data[os.write(results, data) :]
 
 
-class _Late(BaseException):
-    """The time to read a notebook is over. Not an Exception: IPython's reader catches those."""
-
-
-@contextlib.contextmanager
-def _in_time(seconds: float) -> Iterator[None]:
-    """ValueError if it takes longer: there are texts that Python's own tokenizer would read for hours."""
-
-    def ring(*_: object) -> None:
-        raise _Late
-
-    if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGALRM, ring)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
-    try:
-        yield
-    except _Late:
-        text = f"not a readable notebook (to read its code takes more than {seconds:g} s): mind long lines"
-        raise ValueError(text) from None
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
-
-
 class _Libraries:
     """Locked copies of the library, written once each, and the clinic's."""
 
@@ -118,7 +90,7 @@ def grade(job: dict, libraries: _Libraries) -> dict:
     result = {e.name: {"points": 0, "of": e.points, "text": ""} for e in exercises}
     data = base64.b64decode(job["notebook"])
     try:
-        with _in_time(limits.cell):
+        with cells.in_time(limits.cell):
             sources, others = cells.sources(data)
             names = follow_on.uses(sources)
     except ValueError as error:
