@@ -312,7 +312,7 @@ def _and_its_line(found: Verdict, exercise: Exercise, function, examples, good, 
     if not place:
         return found
     text = f". L{place[1:]}" if ". " in found.say else f"; {place}"
-    return replace(found, say=found.say + text)
+    return replace(found, say=found.say + text, mended=place.removeprefix("look at "))
 
 
 def _repaired(exercise: Exercise, function, examples, good, attempts, named=False) -> str:

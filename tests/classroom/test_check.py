@@ -421,16 +421,21 @@ def test_a_table_in_degrees_is_told_its_own_number(column, what):
     assert what in " ".join(text.split()), text
 
 
-def test_right_after_wrong_says_what_it_was(monkeypatch, capsys):
+@pytest.mark.parametrize(
+    "wrong, it_was",
+    [("np.arctan2(a3, d4 * a3)", "line 2: a factor or a term too many"), ("np.arctan2(d4, a3)", "line 2")],
+    ids=["a line with its kind", "a mistake with a name"],
+)
+def test_right_after_wrong_says_what_it_was(monkeypatch, capsys, wrong, it_was):
     monkeypatch.delenv("CI", raising=False)
-    source = "def elbow_angle(a3, d4):\n    return np.arctan2(a3, d4 * a3)\n"
+    source = f"def elbow_angle(a3, d4):\n    return {wrong}\n"
     linecache.cache["<cell elbow>"] = (len(source), None, source.splitlines(True), "<cell elbow>")
     namespace = {"np": np}
     exec(compile(source, "<cell elbow>", "exec"), namespace)
     check("elbow_angle", namespace["elbow_angle"])
     capsys.readouterr()
     check("elbow_angle", lambda a3, d4: np.arctan2(a3, d4))
-    assert capsys.readouterr().out.endswith("; it was line 2: a factor or a term too many\n")
+    assert capsys.readouterr().out.endswith(f"; it was {it_was}\n")
     check("elbow_angle", lambda a3, d4: np.arctan2(a3, d4))
     assert "it was" not in capsys.readouterr().out
 
