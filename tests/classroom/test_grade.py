@@ -20,7 +20,7 @@ import pytest
 
 from coursekit.classroom.author import notebook
 from coursekit.classroom.course import Course
-from coursekit.classroom.grader import box, grade
+from coursekit.classroom.grader import box, grade, viva
 from coursekit.classroom.grader import student as students
 from coursekit.classroom.grader.box import bubblewrap
 from coursekit.classroom.grader.journal import Journal
@@ -135,6 +135,24 @@ def test_what_cannot_be_graded_is_refused_with_what_to_do(tmp_path, monkeypatch)
         grade_small(tmp_path / "in", tmp_path / "out")
     with pytest.raises(ValueError, match="where the submissions are"):
         grade_small(tmp_path / "in", tmp_path / "in", box=False)
+
+
+@needs_box
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such rights")
+def test_grades_and_the_seed_of_hidden_inputs_are_nobody_elses(tmp_path, solved):
+    """On a hub students have accounts on the instructor's machine."""
+    hand_in(tmp_path / "in", "ann", solved)
+    before = os.umask(0o022)
+    try:
+        grade_small(tmp_path / "in", tmp_path / "new" / "out", lines=False)
+        viva.viva("ann", tmp_path / "in", tmp_path / "viva", COURSE)
+    finally:
+        os.umask(before)
+    assert (tmp_path / "new" / "out").stat().st_mode & 0o077 == 0
+    assert (tmp_path / "viva").stat().st_mode & 0o077 == 0
+    (tmp_path / "out").mkdir(mode=0o755)
+    grade_small(tmp_path / "in", tmp_path / "out", lines=False)
+    assert (tmp_path / "out").stat().st_mode & 0o077 == 0o055, "who opened it meant to"
 
 
 def test_notebooks_that_lie_deeper_are_told(tmp_path, solved):

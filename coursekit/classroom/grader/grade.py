@@ -97,7 +97,9 @@ def grade_class(
             )
     units = [unit for unit in course.units if course.exercises(unit)]
     limits = limits or Limits()
-    out.mkdir(parents=True, exist_ok=True)
+    out.mkdir(
+        mode=0o700, parents=True, exist_ok=True
+    )  # students may have accounts here, and the seed is in it
     path = out / "journal.jsonl"
     people = {one.id: one for one in roster.read(roster_path)} if roster_path else {}
     anew = [] if isinstance(regrade, bool) else _units_of(regrade, course, units)

@@ -79,7 +79,7 @@ def viva(
         raise ValueError(f"{submissions / student}: the student did not write {what}{_because(notes)}")
     with own.using(arm):
         asked = [_numbers(course, one, rng), _mistake(course, one, rng), Question(*frame_question(arm, rng))]
-    out.mkdir(parents=True, exist_ok=True)
+    out.mkdir(mode=0o700, parents=True, exist_ok=True)  # students may have accounts here
     name = page_name(student)
     sheet, answers = out / f"viva-{name}", out / f"viva-answers-instructor-only-{name}"
     sheet.write_text(_page(student, one, asked, course, answers=False), encoding="utf-8", errors="replace")
