@@ -235,20 +235,28 @@ def test_vowels_of_other_scripts_tell_names_apart_and_accents_do_not(tmp_path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such rights")
-def test_a_file_that_may_not_be_read_is_listed_and_the_rest_is_collected(tmp_path, monkeypatch):
+@pytest.mark.parametrize("what", ["read_bytes", "is_dir"])
+def test_a_file_that_may_not_be_read_is_listed_and_the_rest_is_collected(tmp_path, monkeypatch, what):
     source = tree(tmp_path / "in", {f"ann/{DH}": notebook("a"), f"bob/{DH}": notebook("b")})
-    read = Path.read_bytes
+    does = getattr(Path, what)
 
     def refuse(path):
-        if "bob" in path.parts:
+        if "bob" in path.parts and path.suffix:
             raise PermissionError(13, "Permission denied")
-        return read(path)
+        return does(path)
 
-    monkeypatch.setattr(Path, "read_bytes", refuse)  # root may read everything
+    monkeypatch.setattr(Path, what, refuse)  # root may read everything
     said = collect.collect(source, tmp_path / "out")
     monkeypatch.undo()
     assert collected(tmp_path / "out") == {f"ann/{DH}": notebook("a")}
     assert f"bob/{DH}: cannot be read (Permission denied)" in said
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such rights")
+def test_a_folder_that_may_not_be_listed_is_told(tmp_path, monkeypatch):
+    source = tree(tmp_path / "in", {f"ann/{DH}": notebook("a"), f"bob/{DH}": notebook("b")})
+    monkeypatch.setattr(os, "access", lambda path, how: Path(path).name != "bob")  # root may list everything
+    assert "bob: a folder that may not be listed" in collect.collect(source, tmp_path / "out")
 
 
 def test_nobodys_name_stops_the_others_or_opens_a_formula(tmp_path):

@@ -213,22 +213,27 @@ def _shortened(found: list[Found]) -> list[Found]:
 def _in_folder(folder: Path, problems: list[str]) -> Iterator[Found]:
     for path in sorted(folder.rglob("*")):
         parts = path.relative_to(folder).parts
-        if _is_nobodys(parts) or (path.is_dir() and not _is_wanted(parts[-1])):
-            continue
-        place = "/".join(parts)
-        if not _is_wanted(parts[-1]):
-            yield Found(parts, b"", datetime.min)
-        elif path.is_symlink() or not path.is_file():
-            problems.append(f"{place}: a link or no file, not followed")
-        elif path.stat().st_size > (LARGEST_ARCHIVE if parts[-1].lower().endswith(".zip") else LARGEST):
-            problems.append(f"{place}: too large")
-        else:
+        if not _is_nobodys(parts):
             try:
-                time, data = datetime.fromtimestamp(path.stat().st_mtime), path.read_bytes()
-            except OSError as error:  # in a shared folder students say who may read their files
-                problems.append(f"{place}: cannot be read ({error.strerror})")
-                continue
-            yield from _one(parts, data, time, problems)
+                yield from _at(path, parts, problems)
+            except OSError as error:  # in a shared folder students say who may read theirs
+                problems.append(f"{'/'.join(parts)}: cannot be read ({error.strerror})")
+
+
+def _at(path: Path, parts: tuple[str, ...], problems: list[str]) -> Iterator[Found]:
+    place = "/".join(parts)
+    if path.is_dir() and not _is_wanted(parts[-1]):
+        if not path.is_symlink() and not os.access(path, os.R_OK | os.X_OK):
+            problems.append(f"{place}: a folder that may not be listed")
+    elif not _is_wanted(parts[-1]):
+        yield Found(parts, b"", datetime.min)
+    elif path.is_symlink() or not path.is_file():
+        problems.append(f"{place}: a link or no file, not followed")
+    elif path.stat().st_size > (LARGEST_ARCHIVE if parts[-1].lower().endswith(".zip") else LARGEST):
+        problems.append(f"{place}: too large")
+    else:
+        time = datetime.fromtimestamp(path.stat().st_mtime)
+        yield from _one(parts, path.read_bytes(), time, problems)
 
 
 def _one(
