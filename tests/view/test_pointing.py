@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from coursekit import ik, robots, view
-from coursekit.view import pointing
+from coursekit.view import camera, pointing
 from coursekit.view.scene import Scene
 from coursekit.view.silhouettes import silhouettes
 
@@ -88,3 +88,20 @@ def test_of_a_solution_that_does_not_exist_there_is_no_arm():
     assert [figure["note"] for figure in figures] == ["none"] * 8
     assert [len(figure["lines"]) for figure in figures] == [2] * 8
     panel.close()
+
+
+@pytest.mark.parametrize("name", robots.all())
+def test_the_tool_at_zero_is_in_the_picture_of_its_explorer(name):
+    """M points there, and sliders at zero bring the tool there."""
+    robot = robots.all()[name]
+    panel = view.explore(robot)
+    home, size = panel.scene.views["home"], panel.scene.size
+    panel.close()
+    ahead = np.subtract(home["target"], home["position"])
+    ahead /= np.linalg.norm(ahead)
+    right = np.cross(ahead, [0, 0, 1])
+    right /= np.linalg.norm(right)
+    for end in [robot.M[:3, 3], *(robot.M[:3, 3] + 0.1 * size * robot.M[:3, :3].T)]:
+        away = end - home["position"]
+        half = np.tan(np.radians(camera.FOV / 2)) * (away @ ahead)
+        assert abs(away @ np.cross(right, ahead)) < half and abs(away @ right) < 1.25 * half

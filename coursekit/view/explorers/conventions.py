@@ -62,6 +62,7 @@ class _Conventions(Explorer):
         """The arm with its tool frame and both sets of DH frames, each fixed to a link."""
         self.robot, scene = robot, self.scene
         self.arm = scene.robot(robot)
+        scene.make_room(robot.M[:3, 3], 0.12 * scene.size)  # where the tool is at zero, to which M points
         scene.frame(self.arm.link(robot.n) + "/tool", robot.M, letter="tool")
         pointing.axes(scene, self.arm)
         pointing.mean(scene.frame("/ck/zero", robot.M, letter="M"), "M")

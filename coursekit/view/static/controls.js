@@ -31,7 +31,7 @@ function buildSlider(model, el) {
     "aria-valuemin": min, "aria-valuemax": max });
   // not of type "number": that would drop the comma of 12,5 without a word
   const box = operated("input", { type: "text", inputmode: "decimal", autocomplete: "off", class: "ck-number",
-    "aria-label": `${label}, ${spoken}` });
+    "aria-label": `${label}, ${spoken}`, title: "a number, also pi/2 or 0.3 rad; a pasted vector fills the boxes from here on" });
   const hint = element("div", { class: "ck-hint", role: "alert" });
   const name = element("label", { class: "ck-name", for: id }, label);
   const ends = element("div", { class: "ck-ends", "aria-hidden": "true" });
