@@ -131,7 +131,9 @@ def test_files_can_be_read_in_one_sitting(path):
 def test_nothing_names_a_developers_machine_or_is_left_to_do():
     names = re.compile(r"/home/\w+/|/root/|[A-Z]:\\Users\\|\b(TODO|FIXME|XXX)\b")
     files = [*SOURCES, *PACKAGE.rglob("*.js"), *NOTEBOOKS, ROOT / "README.md"]
-    found = {relative(path): names.findall(path.read_text(encoding="utf-8")) for path in files}
+    picture = re.compile(r"[A-Za-z0-9+/]{70,}")  # any three letters are in one sooner or later
+    texts = {relative(path): picture.sub("", path.read_text(encoding="utf-8")) for path in files}
+    found = {path: names.findall(text) for path, text in texts.items()}
     assert not {path: hits for path, hits in found.items() if hits}
 
 
