@@ -1,5 +1,7 @@
 """Predict in the picture: the point is dragged, the answer told, and nothing gives it away before."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -48,7 +50,8 @@ def test_where_the_tool_will_be(opened):
     told = np.linalg.norm(explorer.values("prediction") - turned)
     explorer.press("show answer")
     explorer.played_to_the_end(31)
-    assert f"{1000 * told:.1f}".split(".")[0] in explorer.words().splitlines()[1]
+    said = re.search(r"([\d.]+) mm off", explorer.words().splitlines()[1])[1]
+    assert float(said) == pytest.approx(1000 * told, abs=0.51)
     assert " off" in explorer.words().splitlines()[1]
     np.testing.assert_allclose(explorer.values()[0], np.pi / 3, atol=1e-9)
     assert handle(explorer, "move your guess").count() == 0, "what is answered stays"
