@@ -24,9 +24,10 @@ _EXTENSIONS = (
     "coursekit",
 )
 _KERNEL = "@jupyterlite/pyodide-kernel-extension"
-# What is loaded before JupyterLab opens; the rest of it comes, and is kept, when it is used.
+# What is loaded before JupyterLab opens; the rest of it comes, and is kept, when it is used. The page's own
+# scripts come before the worker stands: only a second visit would keep them, and it may have no network.
 _FIRST = re.compile(
-    r"^(static/pyodide|lab|files|api)/|^build/jlab_core\.|^extensions/.*remoteEntry|^[^/]*\.json$"
+    r"^(static/pyodide|lab|files|api)/|^build/jlab_core\.|^extensions/.*remoteEntry|^[^/]*\.js(on)?$"
 )
 STATIC = Path(__file__).with_name("static")
 # What JupyterLab's page has besides: what loads all of it and starts Python, the system's colours before

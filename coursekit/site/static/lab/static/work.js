@@ -109,6 +109,8 @@
   border: 1px solid var(--jp-border-color1); border-radius: 4px; box-shadow: 0 4px 18px #0004; max-height: 70vh; overflow: auto; }
 @media (max-width: 700px) { #ck-bar details { position: static; } #ck-bar details div { inset: auto 10px; width: auto; } }
 #ck-bar .ck-state { margin-left: auto; }
+.jp-RenderedText pre { word-break: normal !important; overflow-wrap: anywhere; }
+@media (max-width: 700px) { .jp-RenderedText pre.ck-columns { white-space: pre; overflow-x: auto; } }
 #ck-bar :focus-visible { outline: 2px solid var(--jp-brand-color1); }`;
 
   const LIMITS = `<p><b>The stop button</b> cannot interrupt Python here. <code>check</code> ends an endless loop by itself. For any other:
@@ -215,14 +217,24 @@
       say("Python is ready; what had run before has run again.");
     }
 
-    const greeted = new WeakSet();
-    function greet({ context }) { // a notebook whose cells ran in another Python
-      if (greeted.has(context)) return;
-      greeted.add(context);
-      if (ended().length) say(`${/^Python/.test(state.textContent) ? "" : state.textContent} Python knows nothing yet of what ran before.`, "resume", "Run it again");
-      context.sessionContext.iopubMessage.connect((_, { header }) => {
-        if (header.msg_type === "execute_input" && state.querySelector("[data-do=resume]")) say("");
+    // A notebook that is opened with cells that ran in another Python; one that was closed meanwhile may have its own still.
+    const opened = new WeakSet(), lately = new WeakSet(), knows = new Set();
+    function meet(context) {
+      if (!context || opened.has(context)) return;
+      opened.add(context);
+      context.ready.then(() => {
+        if ([...(context.model.cells || [])].some(({ type, executionCount }) => type === "code" && executionCount)) lately.add(context);
+        context.sessionContext.iopubMessage.connect(({ session: { kernel } }, { header }) => {
+          if (header.msg_type !== "execute_input") return;
+          knows.add(kernel.id);
+          if (state.querySelector("[data-do=resume]")) say("");
+        });
       });
+    }
+    function greet(context, kernel) {
+      if (!lately.delete(context) || knows.has(kernel.id)) return;
+      const before = /^Python/.test(state.textContent) || !state.textContent ? "" : `${state.textContent} `;
+      say(`${before}Python knows nothing yet of what ran before.`, "resume", "Run it again");
     }
 
     const guarded = (act) => Promise.resolve().then(act).catch((error) => say(`That did not work: ${error.message}`));
@@ -337,7 +349,7 @@
       app.commands.commandExecuted.connect((_, { id }) => /interrupt/.test(id) && loop(begun ? "It still runs." : ""));
       setInterval(() => {
         const status = session()?.kernel?.status;
-        if (status === "idle") greet(app.shell.currentWidget);
+        if (status === "idle") greet(app.shell.currentWidget.context, session().kernel);
         if (status !== "busy") {
           if (begun && state.querySelector("[data-do=again]")) say("Python is ready.");
           begun = 0;
@@ -356,6 +368,24 @@
       navigator.serviceWorker?.register(new URL("../offline.js", root)).catch(() => {}); // without it they need the network
     }
 
+    // A toolbar that still measured its buttons beside the list of files would hide them for good.
+    function measureToolbar() {
+      const { toolbar } = app.shell.currentWidget || {};
+      if (toolbar) toolbar.processMessage({ type: "resize", width: toolbar.node.clientWidth, height: toolbar.node.clientHeight });
+    }
+
+    // On a telephone words go on in the next line; columns do not, they would be columns no more.
+    function keepColumns() {
+      const look = (node) => {
+        for (const pre of node.querySelectorAll?.(".jp-RenderedText pre") || []) {
+          pre.classList.toggle("ck-columns", (pre.textContent.match(/^.*\S {2,}\S.* {2,}\S.*$/gm) || []).length > 1);
+        }
+      };
+      new MutationObserver((seen) => { for (const { addedNodes } of seen) for (const node of addedNodes) look(node.parentElement || node); })
+        .observe(document.getElementById("main") || document.body, { childList: true, subtree: true });
+      look(document);
+    }
+
     function onlyOne() { // the lock is held as long as this page lives
       const name = `coursekit ${root}`, forever = new Promise(() => {});
       navigator.locks?.request(name, { ifAvailable: true }, (lock) => {
@@ -371,6 +401,7 @@
     const remember = () => {
       if (!/\.ipynb$/.test(path() || "")) return;
       memory.set("open", path());
+      meet(app.shell.currentWidget.context);
       app.shell.currentWidget.content.disposed.connect(empty);
     };
     // JupyterLab goes on holding a notebook that was closed, and forgets to dispose of the cells that were not in sight:
@@ -401,7 +432,10 @@
       onlyOne();
       watchStart();
       return guarded(reopen).then(() => guarded(lookForNews)).then(() => {
-        if (innerWidth < 700) app.shell.collapseLeft(); // a phone has no room for the list of files
+        if (innerWidth > 700) return;
+        app.shell.collapseLeft(); // a phone has no room for the list of files
+        setTimeout(measureToolbar, 1500);
+        keepColumns();
       });
     });
     window.coursekitWork = { zip, unzip }; // for tests
