@@ -77,7 +77,9 @@ def attempt(exercise: Exercise, function: Callable, arguments: list) -> Attempt:
         found = Attempt(fault="unwritten", text="not written yet")
     except Endless:
         found = _endless(watch)
-    except Exception as error:
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # sys.exit() as well: it would end more than the call
         found = _explain(exercise, function, error, arguments)
     now = [x for x in given if isinstance(x, np.ndarray | list)]
     names = [n for n, x in zip(exercise.arguments, given, strict=False) if isinstance(x, np.ndarray | list)]
@@ -230,7 +232,7 @@ def _endless(watch: _Watch) -> Attempt:
 # ---- what was raised
 
 
-def _explain(exercise: Exercise, function: Callable, error: Exception, arguments: list) -> Attempt:
+def _explain(exercise: Exercise, function: Callable, error: BaseException, arguments: list) -> Attempt:
     """What was raised, in which line of the student's code, and what the variables in it were."""
     try:
         inspect.signature(function).bind(*arguments)
@@ -238,12 +240,16 @@ def _explain(exercise: Exercise, function: Callable, error: Exception, arguments
         return Attempt(fault="error", text=f"it does not take the arguments of {exercise.signature}")
     except ValueError:  # a function without a signature
         pass
-    said = re.sub(r", with gufunc signature \S+", "", str(error).partition("\n")[0].strip())
+    try:
+        said = str(error)
+    except Exception:  # of a class of the student's own
+        said = ""
+    said = re.sub(r", with gufunc signature \S+", "", said.partition("\n")[0].strip())
     plain = in_plain_words(said)
     if plain:  # which says the rest
         said = re.split(r"\. Use|, and the inputs", re.sub(r"Input operand .*\((.*)\)$", r"\1", said))[0]
     said = shorten(said, 80 if plain else 200, placeholder=" ...")
-    text = f"{type(error).__name__}: {said}"
+    text = f"{type(error).__name__}: {said}".removesuffix(": ")
     frame, at = _place(error)
     if frame is None:
         return Attempt(fault="error", text=f"it raises {text}")
@@ -261,7 +267,7 @@ def _explain(exercise: Exercise, function: Callable, error: Exception, arguments
     return Attempt(fault="error", text=text)
 
 
-def _a_row_for_a_column(exercise: Exercise, frame: FrameType, arguments: list, error: Exception) -> str:
+def _a_row_for_a_column(exercise: Exercise, frame: FrameType, arguments: list, error: BaseException) -> str:
     """ "`s` is a row of S, ...": of what holds six numbers in each column, a loop or an index takes a row."""
     for name, S in zip(exercise.arguments, thaw(arguments), strict=False):
         if name in ("S", "J", "J_b") and np.ndim(S) == 2:
@@ -274,13 +280,13 @@ def _a_row_for_a_column(exercise: Exercise, frame: FrameType, arguments: list, e
     return ""
 
 
-def _place(error: Exception) -> tuple[FrameType | None, int]:
+def _place(error: BaseException) -> tuple[FrameType | None, int]:
     """(frame, line) of the student's code that is nearest to the error."""
     ours = [f for f in traceback.walk_tb(error.__traceback__) if not _is_library(f[0].f_code.co_filename)]
     return ours[-1] if ours else (None, 0)
 
 
-def call_from(function: Callable, error: Exception) -> tuple[FrameType, int] | None:
+def call_from(function: Callable, error: BaseException) -> tuple[FrameType, int] | None:
     """(frame, line) of the student's function itself, from which the call went out that raised."""
     code = getattr(function, "__code__", None)
     ours = [f for f in traceback.walk_tb(error.__traceback__) if f[0].f_code is code]

@@ -6,7 +6,7 @@ import dis
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from types import CodeType
+from types import CodeType, MethodType
 from typing import Any
 
 import numpy as np
@@ -39,7 +39,8 @@ def ignored(exercise: Exercise, function: Callable) -> str:
     code = getattr(function, "__code__", None)
     if not isinstance(code, CodeType):
         return ""
-    for name, wanted in zip(code.co_varnames[: code.co_argcount], exercise.arguments, strict=False):
+    first = isinstance(function, MethodType)  # behind `self`
+    for name, wanted in zip(code.co_varnames[first : code.co_argcount], exercise.arguments, strict=False):
         uses = [i.opname for i in dis.get_instructions(code) if name == i.argval or _holds(i.argval, name)]
         uses = [use for use in uses if not use.startswith(("MAKE_CELL", "COPY_FREE"))]
         if not uses:

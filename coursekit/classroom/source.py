@@ -53,7 +53,7 @@ def definition(function: Callable) -> ast.FunctionDef | None:
     Jupyter keeps the text of every cell that was run; functions made by `exec` of a string have none.
     """
     code = getattr(function, "__code__", None)
-    if not isinstance(code, CodeType):
+    if not isinstance(code, CodeType) or code.co_name == "_lambdifygenerated":  # sympy's: nobody sees it
         return None
     text = "".join(linecache.getlines(code.co_filename))
     if code.co_name == "<lambda>":
@@ -71,6 +71,7 @@ def definition(function: Callable) -> ast.FunctionDef | None:
 
 
 def _named_lambda(text: str, line: int) -> ast.FunctionDef | None:
+    found = []
     for node in ast.walk(ast.parse(text) if _parsed(text) else ast.Module([], [])):
         match node:
             case ast.Assign(targets=[ast.Name(id=name)], value=ast.Lambda() as made) if made.lineno == line:
@@ -78,8 +79,8 @@ def _named_lambda(text: str, line: int) -> ast.FunctionDef | None:
                 ast.increment_lineno(made_anew, line - 1)
                 made_anew.args = made.args
                 made_anew.body = [ast.copy_location(ast.Return(made.body), made.body)]
-                return made_anew
-    return None
+                found.append(made_anew)
+    return found[0] if len(found) == 1 else None  # of two in a line nobody knows which is meant
 
 
 def cells() -> list[str]:

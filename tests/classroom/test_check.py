@@ -56,6 +56,13 @@ def with_allowed_library(theta, l1, l2):
     return l1 * a + l2 * b
 
 
+def _no_words(self):
+    raise ValueError
+
+
+ODD = type("Odd", (BaseException,), {"__str__": _no_words})
+
+
 def unwritten(*args):
     raise NotImplementedError
 
@@ -87,6 +94,8 @@ def test_a_cell_that_did_not_run_is_told_before_the_function_that_is_still_there
         (written("x = l1\nx = [theta[2], x]\nreturn x"), "error", r"there x = .*, theta has shape \(2,\)"),
         (written("return np.array(theta, theta)"), "error", r"\n  np.array takes one list, "),
         (written("return np.linalg.inv(theta[:, None])"), "error", r"needs a square matrix; np.linalg.pinv "),
+        (written("raise SystemExit(1)"), "error", "line 2 of fk raises SystemExit: 1"),
+        (written("raise Odd()", Odd=ODD), "error", "line 2 of fk raises Odd: `raise Odd"),
         (lambda theta: 1, "error", r"does not take the arguments of fk\(theta, l1, l2\)"),
         (lambda *a: None, "misfit", "returns None"),
         (written("print(theta)"), "misfit", "prints the answer and returns None"),

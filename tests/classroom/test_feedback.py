@@ -253,6 +253,53 @@ def joint_screw(kind, w, q):
     assert found.say and not found.right
 
 
+METHOD = """
+class Arm:
+    def {name}(self, a3, d4):
+        return 1.1 * np.arctan2(a3, d4)
+
+
+elbow_angle = Arm().{name}
+"""
+
+
+@pytest.mark.parametrize(
+    "code, line",
+    [
+        (METHOD.format(name="elbow"), "line 2 of `elbow`"),
+        (
+            "f = lambda a3, d4: np.arctan2(d4, a3); elbow_angle = lambda a3, d4: 1.1 * np.arctan2(a3, d4)",
+            "",
+        ),
+        (
+            "import sympy as s\nx = s.symbols('x:2')\nelbow_angle = s.lambdify(x, 1.1 * s.atan2(x[0], x[1]))",
+            "",
+        ),
+    ],
+    ids=["a method that needs no self", "two lambdas in a line", "made by sympy"],
+)
+def test_a_line_is_told_only_where_it_is_known(code, line):
+    found = diagnosis({"exercise": "elbow_angle", "code": code})
+    assert found.say.startswith("your answer is 1.1 times the right one")
+    assert (line in found.say) if line else ("look at" not in found.say), found.say
+
+
+@pytest.mark.parametrize(
+    "helpers",
+    [
+        "def one(x, k): return two(x, k - 1) if k else x * 1.1\n"
+        "def two(x, k): return one(x, k - 1) if k else x * 1.1",
+        "def one(x, k):\n    seen, more = [x], [x]\n    for _ in range(99):\n        seen = seen + more\n"
+        "    return seen[-1] * 1.1",
+    ],
+    ids=["a whole number", "a list"],
+)
+def test_an_edit_with_which_something_doubles_in_each_round_ends(helpers):
+    """k - 1 squared in each call: numbers of 2 ** 1000 digits."""
+    code = f"{helpers}\n\n\ndef elbow_angle(a3, d4):\n    return one(np.arctan2(a3, d4) + a3**3, 4)\n"
+    assert not diagnosis({"exercise": "elbow_angle", "code": code}).right
+
+
 def test_a_place_that_tells_nothing_is_not_told():
     """Three kinds of edit at no line of its own: then what is right already is said."""
     three = [("reversed", ""), ("halves", ""), ("flipped", "")]

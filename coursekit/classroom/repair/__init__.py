@@ -36,6 +36,7 @@ IN_A_HELPER = 600_000  # of them, for edits of each of the student's own functio
 ONE = 10_000  # of them in a single trial, whose loop may not end any more
 RANKS = 4  # of edits, the likely ones first
 LIKELY = 2  # of them: many an edit of another rank gets a count right by chance
+VAST = 100_000  # bits of a whole number, entries of a list or an array
 SECONDS = 10.0  # of the processor: a backstop, where an edit makes work what did nothing before
 
 
@@ -144,7 +145,10 @@ class _Search:
 
     def _probe(self, key: int, pieces: tuple, variables: dict) -> Any:
         variant = self.chosen.get(key)
-        return (self.ordinary[key] if variant is None else variant.value)(pieces, variables)
+        value = (self.ordinary[key] if variant is None else variant.value)(pieces, variables)
+        if _is_vast(value):  # an edit that squares a whole number in each round never comes back
+            raise Stop
+        return value
 
     def hits(self, below: int = RANKS) -> list[_Hit]:
         found: list[_Hit] = []
@@ -290,6 +294,13 @@ class _Search:
             if value is None or not example.agrees(value):
                 return False
         return True
+
+
+def _is_vast(value: Any) -> bool:
+    if type(value) is int:
+        return value.bit_length() > VAST
+    size = value.size if isinstance(value, np.ndarray) else len(value) if isinstance(value, list | str) else 0
+    return size > VAST
 
 
 def _untouched(given: list, arguments: list) -> bool:

@@ -158,7 +158,8 @@ def _place(
     pieces, ordinary, variants = MAKERS.get(type(node), whole)(node, variables)
     if isinstance(node, ast.Name):  # a variable that is used nowhere is likely to be what belongs there
         unused = [name not in used for name in variables if name != node.id]
-        variants = [v._replace(rank=0) if new else v for v, new in zip(variants, unused, strict=False)]
+        named = [v._replace(rank=0) if new else v for v, new in zip(variants, unused, strict=False)]
+        variants = [*named, *variants[len(named) :]]
     if _may_wrap(parent, field, node):
         variants = [*variants, *wraps(ordinary, variables, node)]
     return Place(node, parent, field, at, pieces, ordinary, tuple(variants))
