@@ -66,6 +66,51 @@ def test_a_vector_pasted_fills_the_boxes_from_there_on(explorer):
     assert "is no number here" in hints.nth(5).inner_text()
 
 
+def test_what_was_changed_is_put_back_gesture_by_gesture(explorer):
+    """By keys at a slider, a vector at once, a hand in the picture: three times Ctrl+Z."""
+    theta = "panel.values['theta'].tolist()"
+    ranges, boxes = explorer.page.locator(".ck-range"), explorer.page.locator(".ck-number")
+    before = [explorer.kernel(theta)]
+    ranges.nth(1).press("ArrowRight")
+    explorer.settle()
+    before.append(explorer.kernel(theta))
+    explorer.page.evaluate(PASTE, [boxes.first.element_handle(), "[10, -20, 30, 40, 50, 60]"])
+    explorer.settle()
+    before.append(explorer.kernel(theta))
+    handle = explorer.page.get_by_role("button", name="move the tool")
+    area = handle.bounding_box()
+    explorer.page.mouse.move(area["x"] + area["width"] / 2, area["y"] + area["height"] / 2)
+    explorer.page.mouse.down()
+    for step in range(1, 8):
+        explorer.page.mouse.move(area["x"] + 4 * step, area["y"] + 5 * step)
+    explorer.page.mouse.up()
+    explorer.settle()
+    assert not np.allclose(explorer.kernel(theta), before[-1], atol=1e-3)
+    for place in (handle, ranges.nth(2), ranges.first):
+        place.press("Control+z")
+        explorer.settle()
+        np.testing.assert_allclose(explorer.kernel(theta), before.pop(), atol=1e-12)
+    ranges.first.press("Control+z")  # there is no more
+    boxes.first.fill("12")
+    boxes.first.press("Control+z")  # what is being typed is the browser's own
+    explorer.settle()
+    assert explorer.page.evaluate(CELLS) >= 1
+
+
+def test_theta_is_copied_as_numpy(explorer):
+    explorer.page.evaluate(
+        "() => addEventListener('copy', (event) => (window.got = event.clipboardData.getData('text/plain')))"
+    )
+    explorer.kernel("panel.set(theta=[0.1, -1.4, 1.55, 0, -0.5, 0])")
+    explorer.settle()
+    explorer.page.locator(".ck-range").nth(3).press("Control+c")
+    copied = explorer.page.evaluate("() => window.got")
+    np.testing.assert_allclose(
+        eval(copied, {"np": np}), explorer.kernel("panel.values['theta'].tolist()"), atol=1e-12
+    )
+    assert explorer.page.locator(".ck-hint").nth(3).inner_text() == f"copied: {copied}"
+
+
 def test_escape_takes_a_typed_number_back(explorer):
     box = explorer.page.locator(".ck-number").first
     box.focus()

@@ -4,8 +4,35 @@
 // A name for the page's only element of this kind: a counter would not do where two versions of the course are in a page.
 const unique = (kind) => `ck-${kind}-${Math.random().toString(36).slice(2)}`;
 
+// What a person has changed in the page, and what it was before: Ctrl+Z puts it back, gesture by gesture.
+const places = new WeakMap(); // control -> where it stands
+let past = []; // the latest last
+const remember = (control, place = places.get(control)) => (past = [...past.slice(-199), { control, place, value: control.get("value"), when: performance.now() }]);
+document.addEventListener("keydown", (event) => {
+  const node = /** @type {any} */ (event.target), panel = node.closest?.(".ck-panel");
+  if (!panel || node.ckEdited || event.key !== "z" || !(event.ctrlKey || event.metaKey)) return;
+  take(event);
+  const here = past.filter(({ place }) => panel.contains(place)), last = here.at(-1)?.when;
+  const gesture = here.filter(({ when }) => last - when < 50).reverse(); // all numbers of a vector are one
+  past = past.filter((one) => !gesture.includes(one));
+  for (const { control, value } of gesture) tell(control, { value }, false);
+}, true);
+// Ctrl+C on the slider of a joint: theta, as numpy has it.
+document.addEventListener("copy", (event) => {
+  const slider = document.activeElement?.closest(".ck-range"), panel = slider?.closest(".ck-panel");
+  const joints = [...(panel?.querySelectorAll(".ck-slider") || [])].filter((row) => row.textContent?.startsWith("θ"));
+  if (!joints.some((row) => row.contains(slider))) return;
+  const values = joints.map((row) => ({ value: Number(row.querySelector("input")?.value), turns: row.querySelector(".ck-unit")?.textContent === "deg" }));
+  const all = values.every(({ turns }) => turns) ? `np.radians([${values.map(({ value }) => value).join(", ")}])`
+    : `np.array([${values.map(({ value, turns }) => (turns ? `np.radians(${value})` : value / 1000)).join(", ")}])`;
+  event.clipboardData?.setData("text/plain", all);
+  event.preventDefault();
+  slider.closest(".ck-slider").querySelector(".ck-hint").textContent = `copied: ${all}`;
+});
+
 // A person has changed this control: the kernel is told, and whoever listens in the page.
-function tell(model, changes = {}) {
+function tell(model, changes = {}, isNew = true) {
+  if (isNew && "value" in changes && !model.get("live")) remember(model);
   for (const [name, value] of Object.entries(changes)) model.set(name, value);
   model.set("touched", model.get("touched") + 1);
   model.save_changes();
@@ -102,10 +129,7 @@ function buildSlider(model, el) {
     const value = Number(range.value);
     send(value - min < 1e-9 || max - value < 1e-9 ? value : Math.round(value / step) * step, true);
   });
-  range.addEventListener("change", () => {
-    dragging = false;
-    send(model.get("value"), false);
-  });
+  range.addEventListener("change", () => { dragging = false; send(model.get("value"), false); });
   range.addEventListener("keydown", (event) => {
     const jump = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
     if (jump || event.key === "Home" || event.key === "End") stepBy(jump || (event.key === "Home" ? -Infinity : Infinity), event);
@@ -135,7 +159,7 @@ function buildSlider(model, el) {
     box.ckEdited = false;
     return jump ? stepBy(jump, event) : draw();
   });
-  name.title = "double click: reset";
+  name.title = `double click: reset; Ctrl+Z: take back${label.startsWith("θ") ? "; Ctrl+C: copy theta as numpy" : ""}`;
   name.addEventListener("dblclick", () => send(model.get("start"), false));
   draw();
   return draw;
@@ -163,10 +187,7 @@ function toggle(model, el) {
 
 function action(model, el) {
   const button = operated("button", { type: "button", class: "ck-button" }, model.get("label"));
-  button.addEventListener("click", () => {
-    model.send({ type: "press" });
-    tell(model);
-  });
+  button.onclick = () => { model.send({ type: "press" }); tell(model); };
   el.append(button);
 }
 
@@ -233,13 +254,8 @@ function plot(model, el) {
   };
   const place = () => {
     const cursor = model.get("cursor");
-    while (marks.children.length > cursor.length) marks.lastChild.remove();
-    while (marks.children.length < cursor.length) marks.append(element("span"));
-    cursor.forEach(([x, low, high], i) => {
-      const mark = /** @type {HTMLElement} */ (marks.children[i]);
-      mark.className = high > low ? "ck-across" : "ck-spot";
-      Object.assign(mark.style, { left: `${100 * x}%`, bottom: `${100 * low}%`, height: `${100 * (high - low)}%` });
-    });
+    marks.replaceChildren(...cursor.map(([x, low, high]) => element("span", { class: high > low ? "ck-across" : "ck-spot",
+      style: `left: ${100 * x}%; bottom: ${100 * low}%; height: ${100 * (high - low)}%` })));
   };
   let timer = null;
   const fit = () => { // where there is less room the kernel draws a smaller figure, with letters as large
@@ -274,10 +290,7 @@ function takeHands(model, frame) {
     if (held === "drag") frame.setPointerCapture(event.pointerId);
   });
   frame.addEventListener("pointermove", (event) => held === "drag" && point(event, true));
-  frame.addEventListener("pointerup", (event) => {
-    if (held) point(event, false);
-    held = null;
-  });
+  frame.addEventListener("pointerup", (event) => { if (held) point(event, false); held = null; });
   frame.addEventListener("pointercancel", () => {
     if (held === "drag") tell(model, { pointed: { ...model.get("pointed"), live: false } });
     held = null;
@@ -302,10 +315,12 @@ const makers = { slider, choice, toggle, action, text, table, plot, formula };
 const makeControl = (kind) => ({
   render({ model, el }) {
     el.classList.add("ck-control");
+    places.set(model, el);
     const end = makers[kind](model, el) || (() => {});
     return () => {
       end();
       el.replaceChildren();
+      past = past.filter(({ place }) => place !== el);
     };
   },
 });

@@ -51,6 +51,7 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, mo
   // --- sliders: set here at once, and told to the kernel in one message, of which the latest wins
   const put = (what, sliders, values, live) => {
     puts = true; // who calls decides when it is drawn
+    if (!model.get("dragged")?.live) sliders.forEach((slider) => slider && remember(slider, pane));
     values.forEach((value, k) => {
       if (!sliders[k]) return;
       const inside = Math.min(sliders[k].get("max"), Math.max(sliders[k].get("min"), value));
@@ -149,8 +150,7 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, mo
 
   // --- one button for each grip
   const hold = (event, grip, node) => { // until the pointer is let go
-    event.preventDefault();
-    event.stopPropagation();
+    take(event);
     node.setPointerCapture(event.pointerId);
     let last = [event.clientX, event.clientY], due = null;
     const pull = () => {
@@ -289,6 +289,7 @@ function makeHandles(THREE, viewer, pane, renderer, model, follower, { taken, mo
       hear("off");
       clearTimeout(rests);
       deafen();
+      past = past.filter(({ place }) => place !== pane);
     },
   };
 }

@@ -12,6 +12,9 @@ const svg = (tag, attributes, ...children) => filled(document.createElementNS("h
 const own = { "data-lm-suppress-shortcuts": "true" };
 const keepKeys = (node) => node.addEventListener("keydown", (event) => event.stopPropagation());
 
+// An event that is ours: neither the browser nor the notebook acts on it.
+const take = (event) => { event.preventDefault(); event.stopPropagation(); };
+
 // What a reader operates.
 function operated(tag, attributes, ...children) {
   const node = element(tag, { ...own, ...attributes }, ...children);

@@ -53,8 +53,7 @@ function smallFigures(choose) {
   const KINDS = ["ground", "goal", "arm"];
   let buttons = [];
   const make = ({ word }, i) => {
-    const button = operated("button", { type: "button", class: "ck-one" });
-    button.addEventListener("click", () => choose(i));
+    const button = Object.assign(operated("button", { type: "button", class: "ck-one" }), { onclick: () => choose(i) });
     pointsAt(button, word);
     return button;
   };

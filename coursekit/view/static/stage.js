@@ -26,10 +26,8 @@ function sharedRenderer(MeshCat) {
       shared.renderer = null; // it did not come back: start again with a new one
       try {
         sharedRenderer(MeshCat);
-      } catch {
-        return;
-      }
-      redrawAll();
+        redrawAll();
+      } catch {} // there is none any more
     }, 3000);
   });
   renderer.domElement.addEventListener("webglcontextrestored", redrawAll);
@@ -295,10 +293,7 @@ function makeStage(MeshCat, pane, quality) {
     viewer.controls.saveState();
   });
   pane.addEventListener("pointerup", () => (stood = false));
-  pane.addEventListener("pointercancel", () => {
-    if (stood) viewer.controls.reset();
-    stood = false;
-  });
+  pane.addEventListener("pointercancel", () => { if (stood) viewer.controls.reset(); stood = false; });
 
   const unwatch = watchSize(pane, () => {
     viewer.set_3d_pane_size();

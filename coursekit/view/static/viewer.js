@@ -70,7 +70,7 @@ function makeViewer() {
       // --- a motion: the player says which frame, whoever draws it
       /** @type {(k: number) => void} */
       let draw = () => {};
-      let wake = animate;
+      let wake = () => requestAnimationFrame((now) => { player.tick(now); if (player.playing()) wake(); }); // where no stage draws frames
       const player = makePlayer({
         wake: () => wake(),
         show(k) {
@@ -87,12 +87,6 @@ function makeViewer() {
           model.save_changes(); // the widgets' own throttle: while the kernel is busy the latest frame waits
         },
       });
-      function animate() { // where no stage draws frames
-        requestAnimationFrame((now) => {
-          player.tick(now);
-          if (player.playing()) animate();
-        });
-      }
       el.append(player.bar, text);
 
       let MeshCat, stage;
@@ -248,11 +242,8 @@ function makeViewer() {
 
 function makePane() {
   const pane = element("div", { ...own, class: "ck-pane", tabindex: 0, role: "group", "aria-roledescription": "3D view",
-    title: "drag: turn (on a link: its joint), right drag: move, wheel after a click: zoom; keys: arrows, + and -, Home" });
-  pane.addEventListener("contextmenu", (event) => { // the right button moves the picture
-    event.preventDefault();
-    event.stopPropagation();
-  });
+    title: "drag: turn (on a link: its joint), right drag: move, wheel after a click: zoom; keys: arrows, + and -, Home, Ctrl+Z" });
+  pane.addEventListener("contextmenu", take); // the right button moves the picture
   element("div", { class: "ck-viewer" }, pane);
   return pane;
 }
@@ -275,9 +266,8 @@ function takeKeys(pane, camera, player, home) {
     "+": () => camera.turn(0, 0, 0.9), "-": () => camera.turn(0, 0, 1.1), Home: home, " ": player.toggle,
   };
   pane.addEventListener("keydown", (event) => {
-    if (!acts[event.key]) return;
-    event.preventDefault();
-    event.stopPropagation();
+    if (!acts[event.key] || event.ctrlKey || event.metaKey) return;
+    take(event);
     acts[event.key]();
   });
 }
@@ -304,11 +294,8 @@ function showFirst(model, pane, cover, views, drawn) {
 }
 
 function offerViews(model, buttons, choose) {
-  buttons.replaceChildren(...Object.entries(model.get("views")).map(([name, where]) => {
-    const button = element("button", { ...own, type: "button", class: "ck-button", title: `${name} view` }, name);
-    button.onclick = () => choose(name, where);
-    return button;
-  }));
+  buttons.replaceChildren(...Object.entries(model.get("views")).map(([name, where]) => Object.assign(
+    element("button", { ...own, type: "button", class: "ck-button", title: `${name} view` }, name), { onclick: () => choose(name, where) })));
 }
 
 // No WebGL, or a policy that forbids the bundle: the picture the kernel draws, renewed at most twice a second.
