@@ -152,7 +152,7 @@ def test_a_notebook_that_takes_hours_to_read_is_named(tmp_path, monkeypatch):
     """For Python's tokenizer each of the spaces is an error of its own."""
     monkeypatch.setattr(viva, "READING", 0.5, raising=False)
     (tmp_path / "in" / "slow").mkdir(parents=True)
-    cell = {"cell_type": "code", "source": "x" + " " * 30_000 + "!"}
+    cell = {"cell_type": "code", "source": "x" + " " * 190_000 + "!"}
     name = COURSE.notebook("nb01").name
     (tmp_path / "in" / "slow" / name).write_text(json.dumps({"cells": [cell]}))
     with pytest.raises(ValueError, match=r"to read its code takes more than 0.5 s"):
