@@ -208,6 +208,8 @@ def test_in_a_page_without_a_kernel_every_solution_follows_the_target(browser, t
     page.mouse.up()
     page.wait_for_function("() => !document.querySelector('#words').textContent.includes('(486.0,')")
     assert "by 8 of 8" in page.inner_text("#words")
+    x.press("Control+z")  # what the hand did, and no more
+    page.wait_for_function("() => document.querySelector('#words').textContent.includes('(486.0,')")
 
     x.press("End")  # out of reach: what does not get there is not shown, but for the solid arm, which says so
     page.get_by_text("the solid arm cannot follow to this target; target reached by 0 of 8").wait_for()

@@ -9,7 +9,7 @@ const places = new WeakMap(); // control -> where it stands
 let past = []; // the latest last
 const remember = (control, place = places.get(control)) => (past = [...past.slice(-199), { control, place, value: control.get("value"), when: performance.now() }]);
 document.addEventListener("keydown", (event) => {
-  const node = /** @type {any} */ (event.target), panel = node.closest?.(".ck-panel");
+  const node = /** @type {any} */ (event.target), panel = node.closest?.(".ck-panel, .ck-page");
   if (!panel || node.ckEdited || event.key !== "z" || !(event.ctrlKey || event.metaKey)) return;
   take(event);
   const here = past.filter(({ place }) => panel.contains(place)), last = here.at(-1)?.when;
@@ -19,7 +19,7 @@ document.addEventListener("keydown", (event) => {
 }, true);
 // Ctrl+C on the slider of a joint: theta, as numpy has it.
 document.addEventListener("copy", (event) => {
-  const slider = document.activeElement?.closest(".ck-range"), panel = slider?.closest(".ck-panel");
+  const slider = document.activeElement?.closest(".ck-range"), panel = slider?.closest(".ck-panel, .ck-page");
   const joints = [...(panel?.querySelectorAll(".ck-slider") || [])].filter((row) => row.textContent?.startsWith("θ"));
   if (!joints.some((row) => row.contains(slider))) return;
   const values = joints.map((row) => ({ value: Number(row.querySelector("input")?.value), turns: row.querySelector(".ck-unit")?.textContent === "deg" }));
